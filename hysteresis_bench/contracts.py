@@ -1,0 +1,123 @@
+"""What a plugin promises: Model, Effect, Optimizer, Rig. Abstract here, final in the plugins.
+
+Everything is a swarm: a simulation is always of many parameter vectors at once, and one vector is a
+swarm of 1. Arrays are (samples, swarm), float64, swarm innermost and contiguous. Settings are the
+fields of a frozen dataclass; parameters are what a fit finds. A plugin imports this module,
+`parameters`, `signals` and `kernels`, and nothing above them; whatever is slow to import (its kernel,
+a library) it imports inside its method, so that `list` stays fast.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Any, ClassVar, Protocol
+
+from numpy.random import Generator
+from numpy.typing import NDArray
+
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Dataset, Record, Signal
+
+Start = Callable[[int], NDArray]
+"""start(particles) -> (dimension, particles): the first points, shared by all optimizers of a trial.
+The first k columns do not depend on how many are asked for."""
+
+
+class Model(ABC):
+    """A hysteresis model: input over time to output over time."""
+
+    parameters: ClassVar[tuple[Parameter, ...]]
+    linear: ClassVar[tuple[str, ...]] = ()
+    """Parameters in which the output is jointly affine: fits may eliminate them."""
+
+    @abstractmethod
+    def simulate(self, signal: Signal, p: Any) -> NDArray:
+        """signal.input : (samples, 1) or (samples, swarm); p : namedtuple of (swarm,) arrays, one a
+        parameter, in units -> (samples, swarm). Starts from the model's rest state at the first sample.
+        Never NaN where the parameters lie in the box; never changes its arguments."""
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """The parameters with bounds and scaling that suit the ranges of these records."""
+        return self.parameters
+
+    def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
+        """Sentences about what in these records the model cannot follow, such as a sign or a centre."""
+        return ()
+
+
+class Effect(ABC):
+    """A physical effect around a model. At its null value it changes nothing, to the last bit."""
+
+    parameters: ClassVar[tuple[Parameter, ...]]
+
+    @abstractmethod
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        """inner(signal) runs what is wrapped -> (samples, swarm); change the signal, the output, or
+        both. p as in Model.simulate."""
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """The parameters with bounds and scaling that suit these records."""
+        return self.parameters
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        """Why the effect cannot be fitted to these records, or an empty string."""
+        return ""
+
+    def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+        """What the effect estimates anew on every record (a nuisance); simulated : (samples, swarm)."""
+        return simulated
+
+
+class Objective(Protocol):
+    """What an optimizer sees: a metered loss on the unit box. Every answer is finite.
+
+    Raises BudgetSpent when the budget is used up (let it through) and OutsideBox for a point outside
+    [0, 1]: how an algorithm treats its bounds is its own business.
+    """
+
+    @property
+    def dimension(self) -> int: ...
+
+    @property
+    def budget(self) -> int: ...
+
+    @property
+    def evaluations(self) -> int: ...
+
+    def __call__(self, point: NDArray) -> float:
+        """point : (dimension,) -> loss. One evaluation."""
+
+    def many(self, points: NDArray) -> NDArray:
+        """points : (dimension, swarm) -> (swarm,) losses. As many evaluations as columns: the ones that
+        the budget still affords are scored before BudgetSpent is raised."""
+
+    def residuals(self, point: NDArray) -> NDArray:
+        """point : (dimension,) -> (scored samples,), simulated minus measured. One evaluation."""
+
+
+class Optimizer(ABC):
+    """A search. Its settings are frozen dataclass fields."""
+
+    anytime: ClassVar[bool] = True
+    """False where the schedule needs to know the budget."""
+
+    @abstractmethod
+    def search(self, objective: Objective, start: Start, rng: Generator) -> None:
+        """Search the unit box until the budget is spent or nothing is left to do. Returns nothing: the
+        meter keeps the trace, and the trace is the result. All randomness from rng."""
+
+    def evaluations_per_iteration(self, dimension: int) -> int | None:
+        """What one iteration costs, where the algorithm has iterations in the papers' sense."""
+        return None
+
+
+class Rig(ABC):
+    """A virtual test bench: a physical simulation that is the ground truth, never the model under test."""
+
+    experiments: ClassVar[dict[str, str]]
+    """Name and one-line description of what can be measured."""
+
+    @abstractmethod
+    def measure(self, experiment: str, rng: Generator) -> Dataset:
+        """One experiment -> a dataset with units and, in `hidden`, what was hidden in it."""

@@ -1,0 +1,35 @@
+"""What a user's mistake looks like: where, what, and what would be right, all faults at once."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+
+
+class UserError(Exception):
+    """The user's input is at fault. The command line prints it without a traceback and exits with 2.
+
+    where : what was read, such as a file's name
+    faults : one sentence each, saying what is wrong and what would be right
+    """
+
+    def __init__(self, where: str, faults: str | Sequence[str]) -> None:
+        self.where = where
+        self.faults = [faults] if isinstance(faults, str) else list(faults)
+        super().__init__(str(self))
+
+    def __str__(self) -> str:
+        if len(self.faults) == 1:
+            return f"{self.where}: {self.faults[0]}"
+        return f"{self.where} has {len(self.faults)} faults: " + " · ".join(self.faults)
+
+    def __reduce__(self) -> tuple:  # exceptions with two arguments do not survive pickling unaided
+        return type(self), (self.where, self.faults)
+
+
+def nearest(name: str, known: Iterable[str]) -> str:
+    """`Known: a, b. Did you mean "b"?` for an unknown name."""
+    names = sorted(known)
+    close = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    meant = f' Did you mean "{close[0]}"?' if close else ""
+    return f"Known: {', '.join(names) or 'none'}.{meant}"

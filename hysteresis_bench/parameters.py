@@ -1,0 +1,85 @@
+"""Parameters and the search space: bounds, scaling and units live here; searches see the unit box."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Scaling = Literal["linear", "log"]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One number that a fit may find.
+
+    name : the symbol or word by which settings, tables and files know it
+    lower, upper : the search box, in `unit`
+    unit : may name {input}, {output} and {time}, replaced by the units of the data
+    scaling : how the unit interval maps to the box: linear, or log where decades matter
+    null : the value that switches an effect off; None for a parameter that switches nothing
+    """
+
+    name: str
+    lower: float
+    upper: float
+    unit: str = "1"
+    scaling: Scaling = "linear"
+    null: float | None = None
+    meaning: str = ""
+
+    def within(self, lower: float, upper: float, scaling: Scaling | None = None) -> Parameter:
+        """The same parameter in another box."""
+        return replace(self, lower=float(lower), upper=float(upper), scaling=scaling or self.scaling)
+
+    def faults(self) -> list[str]:
+        """What is wrong with the box, a sentence each; empty when nothing is."""
+        found = []
+        if not (np.isfinite(self.lower) and np.isfinite(self.upper)):
+            found.append(f"{self.name}: bounds {self.lower} and {self.upper} must be finite.")
+        elif self.lower > self.upper:
+            found.append(f"{self.name}: low {self.lower} is above high {self.upper}.")
+        elif self.lower == self.upper:
+            found.append(f"{self.name}: low and high are both {self.lower}; leave room between them.")
+        if self.scaling == "log" and self.lower <= 0:
+            found.append(f"{self.name}: log scaling needs a low bound above 0, not {self.lower}.")
+        return found
+
+
+@dataclass(frozen=True)
+class Space:
+    """The box of a search, and the map between it and the unit box."""
+
+    parameters: tuple[Parameter, ...]
+
+    @property
+    def dimension(self) -> int:
+        return len(self.parameters)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(parameter.name for parameter in self.parameters)
+
+    @cached_property
+    def _edges(self) -> tuple[NDArray, NDArray, NDArray]:
+        logarithmic = np.array([p.scaling == "log" for p in self.parameters])[:, None]
+        lower = np.array([p.lower for p in self.parameters], dtype=float)[:, None]
+        upper = np.array([p.upper for p in self.parameters], dtype=float)[:, None]
+        low = np.where(logarithmic, np.log(np.where(logarithmic, lower, 1.0)), lower)
+        high = np.where(logarithmic, np.log(np.where(logarithmic, upper, 1.0)), upper)
+        return low, high - low, logarithmic
+
+    def from_unit(self, points: NDArray) -> NDArray:
+        """Unit box to physical values. points : (dimension, swarm) in [0, 1] -> same shape, in units."""
+        low, span, logarithmic = self._edges
+        values = low + span * points
+        return np.where(logarithmic, np.exp(np.where(logarithmic, values, 0.0)), values)
+
+    def to_unit(self, values: NDArray) -> NDArray:
+        """Physical values to the unit box, (dimension, swarm); values outside the box land outside it."""
+        low, span, logarithmic = self._edges
+        scaled = np.where(logarithmic, np.log(np.where(logarithmic, values, 1.0)), values)
+        return (scaled - low) / span

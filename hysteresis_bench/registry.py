@@ -1,0 +1,121 @@
+"""Entry points to plugins: the only door to them. Loaded lazily; a broken plugin is listed with its fault."""
+
+from __future__ import annotations
+
+import dataclasses
+import typing
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from importlib.metadata import EntryPoint, entry_points
+from typing import Any, Literal
+
+from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
+from hysteresis_bench.errors import nearest
+
+Kind = Literal["models", "effects", "optimizers", "rigs"]
+CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
+
+
+@dataclass(frozen=True)
+class Plugin:
+    """A registered name, what it is, and where it comes from.
+
+    fault : why it cannot be used, or an empty string
+    """
+
+    kind: Kind
+    name: str
+    distribution: str
+    loaded: type | None
+    fault: str = ""
+
+    @property
+    def summary(self) -> str:
+        """The first sentence of the plugin's docstring, or its fault."""
+        if self.loaded is None:
+            return f"broken: {self.fault}"
+        return " ".join((self.loaded.__doc__ or "").split("\n\n")[0].split())
+
+
+@cache
+def _points(kind: Kind) -> Mapping[str, EntryPoint]:
+    return {point.name: point for point in entry_points(group=f"hysteresis_bench.{kind}")}
+
+
+def names(kind: Kind) -> tuple[str, ...]:
+    """Every registered name, sorted; nothing is loaded."""
+    return tuple(sorted(_points(kind)))
+
+
+def load(kind: Kind, name: str) -> Plugin:
+    """Load one plugin; a plugin that cannot be loaded carries its fault. Raises KeyError if unknown."""
+    if name not in _points(kind):
+        raise KeyError(f'no {kind[:-1]} "{name}". {nearest(name, names(kind))}')
+    point = _points(kind)[name]
+    distribution = point.dist.name if point.dist else ""
+    try:
+        loaded = point.load()
+    except Exception as error:  # a plugin's own fault, whatever it is, must not stop the others
+        return Plugin(kind, name, distribution, None, f"{type(error).__name__}: {error}")
+    contract = CONTRACTS[kind]
+    if not (isinstance(loaded, type) and issubclass(loaded, contract)):
+        return Plugin(kind, name, distribution, None, f"{point.value} is not a {contract.__name__}")
+    missing = sorted(getattr(loaded, "__abstractmethods__", ()))
+    if missing:
+        return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")
+    return Plugin(kind, name, distribution, loaded)
+
+
+def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:
+    """What is wrong with a plugin's name or settings, a sentence each; empty when nothing is."""
+    if name not in _points(kind):
+        return [f'no {kind[:-1]} "{name}". {nearest(name, names(kind))}']
+    plugin = load(kind, name)
+    if plugin.loaded is None:
+        return [f'{kind[:-1]} "{name}" is broken: {plugin.fault}']
+    fields = _settings(plugin.loaded)
+    found = []
+    for key, value in settings.items():
+        if key not in fields:
+            found.append(f'{name} has no setting "{key}". {nearest(key, fields)}')
+        elif not _fits(value, fields[key]):
+            expected = getattr(fields[key], "__name__", str(fields[key]))
+            found.append(f"{name}: {key} = {value!r} must be of type {expected}.")
+    if not found:
+        try:
+            plugin.loaded(**settings)
+        except ValueError as error:
+            found.append(f"{name}: {error}")
+    return found
+
+
+def build(kind: Kind, name: str, settings: Mapping[str, Any] | None = None) -> Any:
+    """A plugin with its settings. Raises ValueError that tells all faults at once."""
+    found = faults(kind, name, settings or {})
+    if found:
+        raise ValueError(" · ".join(found))
+    loaded = load(kind, name).loaded
+    assert loaded is not None
+    return loaded(**(settings or {}))
+
+
+def _settings(plugin: type) -> dict[str, Any]:
+    """Names and types of a plugin's settings: the fields of its dataclass."""
+    if not dataclasses.is_dataclass(plugin):
+        return {}
+    hints = typing.get_type_hints(plugin)
+    return {field.name: hints[field.name] for field in dataclasses.fields(plugin) if field.init}
+
+
+def _fits(value: Any, expected: Any) -> bool:
+    """Is the value of the type, an integer also where a float is wanted?"""
+    options = typing.get_args(expected) if typing.get_origin(expected) is not None else (expected,)
+    if typing.get_origin(expected) is Literal:
+        return value in options
+    if typing.get_origin(expected) in (tuple, list, dict):
+        return isinstance(value, (list, tuple, dict))
+    if isinstance(value, bool):
+        return bool in options
+    allowed = tuple(option for option in options if isinstance(option, type))
+    return isinstance(value, allowed) or (float in allowed and isinstance(value, int))

@@ -1,0 +1,158 @@
+"""Signals and records: what drives a model, what was measured, and how records form a data set."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+UNITLESS: Mapping[str, str] = MappingProxyType({"time": "s", "input": "1", "output": "1"})
+INDEX = "sample"
+"""The unit of a time that is only an index."""
+
+
+@dataclass(frozen=True, eq=False)
+class Signal:
+    """An input over time, for one or for a swarm of simulations.
+
+    time : (samples,) strictly increasing, s; an index where `timed` is False: rate effects do not apply
+    input : (samples, 1) shared by the swarm, or (samples, swarm)
+    columns : further measured columns by name, (samples,) each, such as temperature
+    """
+
+    time: NDArray
+    input: NDArray
+    timed: bool = True
+    columns: Mapping[str, NDArray] = field(default_factory=dict)
+
+    def with_input(self, values: NDArray) -> Signal:
+        """The same signal with another input, (samples, 1) or (samples, swarm)."""
+        return replace(self, input=np.ascontiguousarray(values, dtype=float))
+
+
+@dataclass(frozen=True, eq=False)
+class Record:
+    """One measurement; a model restarts at its first sample.
+
+    time, input, output : (samples,); output is None where only a prediction is wanted
+    units : of "time", "input", "output" and of any further column
+    history : leading samples that are simulated but not scored
+    """
+
+    time: NDArray
+    input: NDArray
+    output: NDArray | None
+    name: str = "record"
+    units: Mapping[str, str] = field(default_factory=lambda: UNITLESS)
+    columns: Mapping[str, NDArray] = field(default_factory=dict)
+    history: int = 0
+
+    @property
+    def timed(self) -> bool:
+        return self.units.get("time") != INDEX
+
+    @property
+    def signal(self) -> Signal:
+        return Signal(self.time, np.ascontiguousarray(self.input[:, None]), self.timed, self.columns)
+
+    @property
+    def scored(self) -> slice:
+        return slice(self.history, None)
+
+    @property
+    def measured(self) -> NDArray:
+        """The scored samples of the output. Raises ValueError where there is no output."""
+        if self.output is None:
+            raise ValueError(f"record {self.name} has no output")
+        return self.output[self.scored]
+
+    def take(self, samples: slice | NDArray, name: str | None = None) -> Record:
+        """A part of the record, as a record of its own; its history is what it keeps of ours."""
+        index = np.arange(self.time.size)[samples]
+        return replace(
+            self,
+            time=self.time[index],
+            input=self.input[index],
+            output=None if self.output is None else self.output[index],
+            columns={key: column[index] for key, column in self.columns.items()},
+            history=int(np.count_nonzero(index < self.history)),
+            name=name or self.name,
+        )
+
+    def skip(self, duration: float) -> Record:
+        """Turn the first `duration` (in units of time) into history: simulated, not scored."""
+        return replace(self, history=int(np.searchsorted(self.time, self.time[0] + duration)))
+
+    def settled(self, repeats: int) -> Record:
+        """A closed loop preceded by `repeats` of itself as history, so that a model has closed its loop
+        when it is scored. The time between the last sample and the repeated first one is the median step."""
+        period = self.time[-1] - self.time[0] + float(np.median(np.diff(self.time)))
+        copies = repeats + 1
+
+        def tiled(values: NDArray) -> NDArray:
+            return np.tile(values, copies)
+
+        shift = np.repeat(np.arange(-repeats, 1) * period, self.time.size)
+        return replace(
+            self,
+            time=tiled(self.time) + shift,
+            input=tiled(self.input),
+            output=None if self.output is None else tiled(self.output),
+            columns={key: tiled(column) for key, column in self.columns.items()},
+            history=repeats * self.time.size + self.history,
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Dataset:
+    """Records, and which of them are fitted and which are held out (opened once, at the end).
+
+    hidden : what a virtual rig hid in its data, by name; empty for measurements
+    """
+
+    records: tuple[Record, ...]
+    held_out_names: tuple[str, ...] = ()
+    hidden: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def fitted(self) -> tuple[Record, ...]:
+        return tuple(record for record in self.records if record.name not in self.held_out_names)
+
+    @property
+    def held_out(self) -> tuple[Record, ...]:
+        return tuple(record for record in self.records if record.name in self.held_out_names)
+
+    @property
+    def units(self) -> Mapping[str, str]:
+        return self.records[0].units
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(record.name for record in self.records)
+
+    def split(self, held_out: Sequence[str]) -> Dataset:
+        """The same records with these held out. Raises ValueError for an unknown name."""
+        unknown = [name for name in held_out if name not in self.names]
+        if unknown:
+            raise ValueError(f"no record {unknown[0]!r}; there are: {', '.join(self.names)}")
+        return replace(self, held_out_names=tuple(held_out))
+
+    def map(self, change: Any) -> Dataset:
+        """The data set with every record changed by change(record) -> record."""
+        return replace(self, records=tuple(change(record) for record in self.records))
+
+
+def joined(*datasets: Dataset) -> Dataset:
+    """All records of several data sets, in order. Raises ValueError where two share a name."""
+    records = tuple(record for dataset in datasets for record in dataset.records)
+    names = [record.name for record in records]
+    doubled = sorted({name for name in names if names.count(name) > 1})
+    if doubled:
+        raise ValueError(f"two records are both named {doubled[0]!r}; names must differ")
+    hidden = {key: value for dataset in datasets for key, value in dataset.hidden.items()}
+    held_out = tuple(name for dataset in datasets for name in dataset.held_out_names)
+    return Dataset(records, held_out, hidden)

@@ -1,0 +1,31 @@
+"""Bias: one constant on the output of all records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+
+
+@dataclass(frozen=True)
+class Bias(Effect):
+    """One constant on the output of all records: y + offset."""
+
+    parameters = (Parameter("offset", -1.0, 1.0, unit="{output}", null=0.0, meaning="added to the output"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        return inner(signal) + p.offset
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        low = min(float(np.min(record.measured)) for record in records)
+        high = max(float(np.max(record.measured)) for record in records)
+        span = (high - low) or 1.0
+        # the constant may lie as far outside the measured range as the range is wide
+        return (self.parameters[0].within(low - span, high + span),)

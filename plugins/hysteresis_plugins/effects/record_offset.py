@@ -1,0 +1,35 @@
+"""Record offset: one constant a record, for records taken on different days."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+
+
+@dataclass(frozen=True)
+class RecordOffset(Effect):
+    """One constant a record: a nuisance, estimated on every record that has an output as the mean of
+    measured minus simulated over its scored samples (the least-squares estimate).
+
+    `offset` is what a record without an output is given; a fit writes the median of its records here.
+    """
+
+    parameters: ClassVar[tuple[Parameter, ...]] = ()
+
+    offset: float = 0.0
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        return inner(signal)
+
+    def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+        if record.output is None:
+            return simulated + self.offset
+        return simulated + (np.mean(record.measured) - np.mean(simulated[record.scored], axis=0))
