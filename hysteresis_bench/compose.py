@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from hysteresis_bench.contracts import Effect, Model
@@ -19,56 +20,38 @@ from hysteresis_bench.signals import Record, Signal
 class System:
     """A model and the effects around it, innermost first.
 
-    Parameters are the model's, then each effect's as "effect.parameter"; values are (dimension, swarm)
-    in that order.
+    fixed : parameters that are known, by name, in units; a fit does not see them
+    Parameters are the model's, then each effect's as "effect.parameter", without the fixed ones;
+    values are (dimension, swarm) in that order.
     """
 
     model: Model
     effects: tuple[tuple[str, Effect], ...] = ()
-
-    @cached_property
-    def _parts(self) -> list[tuple[str, Model | Effect, Any, slice]]:
-        parts = []
-        position = 0
-        stack: list[tuple[str, Model | Effect]] = [("", self.model)]
-        stack += [(f"{name}.", effect) for name, effect in self.effects]
-        for prefix, part in stack:
-            names = [parameter.name for parameter in part.parameters]
-            parts.append((prefix, part, namedtuple("Values", names), slice(position, position + len(names))))
-            position += len(names)
-        return parts
+    fixed: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """All parameters with their own default boxes."""
-        return self._named([part.parameters for _, part, _, _ in self._parts])
+        """The free parameters with their own default boxes."""
+        return self._free([part.parameters for _, part in self._stack])
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """All parameters with boxes that suit these records."""
-        return self._named([part.box(records) for _, part, _, _ in self._parts])
-
-    def _named(self, groups: Sequence[Sequence[Parameter]]) -> tuple[Parameter, ...]:
-        return tuple(
-            replace(parameter, name=prefix + parameter.name)
-            for (prefix, _, _, _), group in zip(self._parts, groups, strict=True)
-            for parameter in group
-        )
+        """The free parameters with boxes that suit these records."""
+        return self._free([part.box(records) for _, part in self._stack])
 
     def simulate(self, signal: Signal, values: NDArray) -> NDArray:
         """values : (dimension, swarm), in units -> (samples, swarm)."""
-        _, model, named, columns = self._parts[0]
-        p = named(*values[columns])
+        full = self._with_fixed(values)
+        model_values, *effect_values = (
+            named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)
+        )
 
         def run(inner_signal: Signal) -> NDArray:
-            return model.simulate(inner_signal, p)  # type: ignore[union-attr]
+            return self.model.simulate(inner_signal, model_values)
 
-        for _, effect, effect_named, effect_columns in self._parts[1:]:
-            run = self._wrapped(effect, run, effect_named(*values[effect_columns]))  # type: ignore[arg-type]
-        return run(signal)
-
-    @staticmethod
-    def _wrapped(effect: Effect, inner: Any, p: Any) -> Any:
-        return lambda signal: effect.apply(inner, signal, p)
+        wrapped: Callable[[Signal], NDArray] = run
+        for (_, effect), p in zip(self.effects, effect_values, strict=True):
+            wrapped = _around(effect, wrapped, p)
+        return wrapped(signal)
 
     def respond(self, record: Record, values: NDArray) -> NDArray:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
@@ -76,3 +59,45 @@ class System:
         for _, effect in self.effects:
             simulated = effect.adjust(simulated, record)
         return simulated
+
+    @cached_property
+    def _stack(self) -> list[tuple[str, Model | Effect]]:
+        return [("", self.model), *((f"{name}.", effect) for name, effect in self.effects)]
+
+    @cached_property
+    def _namedtuples(self) -> list[Any]:
+        return [namedtuple("Values", [p.name for p in part.parameters]) for _, part in self._stack]
+
+    @cached_property
+    def _rows(self) -> list[slice]:
+        ends = np.cumsum([0, *(len(part.parameters) for _, part in self._stack)])
+        return [slice(int(low), int(high)) for low, high in zip(ends, ends[1:], strict=False)]
+
+    @cached_property
+    def _free_rows(self) -> list[int]:
+        names = [prefix + parameter.name for prefix, part in self._stack for parameter in part.parameters]
+        return [row for row, name in enumerate(names) if name not in self.fixed]
+
+    @cached_property
+    def _fixed_column(self) -> NDArray:
+        names = [prefix + parameter.name for prefix, part in self._stack for parameter in part.parameters]
+        return np.array([[self.fixed.get(name, np.nan)] for name in names]).reshape(-1, 1)
+
+    def _with_fixed(self, values: NDArray) -> NDArray:
+        if not self.fixed:
+            return values
+        full = np.repeat(self._fixed_column, values.shape[1], axis=1)
+        full[self._free_rows] = values
+        return full
+
+    def _free(self, groups: Sequence[Sequence[Parameter]]) -> tuple[Parameter, ...]:
+        named = [
+            replace(parameter, name=prefix + parameter.name)
+            for (prefix, _), group in zip(self._stack, groups, strict=True)
+            for parameter in group
+        ]
+        return tuple(parameter for parameter in named if parameter.name not in self.fixed)
+
+
+def _around(effect: Effect, inner: Callable[[Signal], NDArray], p: Any) -> Callable[[Signal], NDArray]:
+    return lambda signal: effect.apply(inner, signal, p)

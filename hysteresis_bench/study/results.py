@@ -1,0 +1,66 @@
+"""A results folder as it is read: the study, its trials with their traces, the best fits' responses."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.objective import Trace
+from hysteresis_bench.study.store import Store
+from hysteresis_bench.study.study_file import Study, check_study
+
+STUDY, PUBLISHED, PROVENANCE = "study.toml", "published.toml", "provenance.json"
+TRIALS, SUMMARY, RESPONSES, REPORT = "trials.csv", "summary.csv", "responses.csv", "report.html"
+
+STATUSES = ("done", "finished-early", "raised", "timed-out", "crashed", "out-of-memory")
+FINISHED = ("done", "finished-early")
+"""Statuses of a trial that has a result."""
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """What a study left behind. Nothing here is computed, all of it is read.
+
+    published : the paper's tables and claims as parsed TOML, empty without
+    provenance : versions, machine, and for every optimizer label its plugin, settings, summary and
+        evaluations_per_iteration (an integer or null)
+    trials : one row a trial with the columns of trials.csv, ordered by problem, optimizer, trial
+    traces : (problem, optimizer, trial) -> best-so-far trace, of trials that have a result
+    responses : problem, optimizer, record, role (fitted or held-out), time, input, output, simulated;
+        for the best trial of every optimizer on every problem
+    """
+
+    folder: Path
+    study: Study
+    published: Mapping[str, Any]
+    provenance: Mapping[str, Any]
+    trials: pd.DataFrame
+    traces: Mapping[tuple[str, str, int], Trace]
+    responses: pd.DataFrame
+
+
+def read_results(folder: Path) -> Results:
+    """Raises UserError where the folder holds no study."""
+    if not (folder / STUDY).is_file():
+        raise UserError(str(folder), f"holds no results: there is no {STUDY} in it.")
+    study = check_study(tomllib.loads((folder / STUDY).read_text(encoding="utf-8")), str(folder / STUDY))
+    published = folder / PUBLISHED
+    responses = folder / RESPONSES
+    with Store(folder) as store:
+        trials, traces = store.table(), store.traces()
+    return Results(
+        folder,
+        study,
+        tomllib.loads(published.read_text(encoding="utf-8")) if published.is_file() else {},
+        json.loads((folder / PROVENANCE).read_text(encoding="utf-8")),
+        trials,
+        traces,
+        pd.read_csv(responses) if responses.is_file() else pd.DataFrame(),
+    )

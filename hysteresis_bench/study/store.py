@@ -1,0 +1,144 @@
+"""The store: every finished trial and its trace in SQLite, one commit a trial, failures too."""
+
+from __future__ import annotations
+
+import io
+import json
+import sqlite3
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench.objective import Trace
+
+FILE = "trials.sqlite"
+
+KEY = ("problem", "optimizer", "trial")
+COLUMNS = (
+    "study",
+    *KEY,
+    "seed",
+    "status",
+    "reason",
+    "evaluations",
+    "fitness",
+    "rmse",
+    "relative_rms",
+    "max_error",
+    "held_out_rmse",
+    "seconds",
+)
+"""Columns of trials.csv; parameter.NAME columns follow."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """One finished trial. Absent numbers are None: a trial that failed has no fitness."""
+
+    problem: str
+    optimizer: str
+    trial: int
+    seed: str
+    status: str
+    reason: str = ""
+    evaluations: int | None = None
+    fitness: float | None = None
+    rmse: float | None = None
+    relative_rms: float | None = None
+    max_error: float | None = None
+    held_out_rmse: float | None = None
+    seconds: float | None = None
+    parameters: dict[str, float] = field(default_factory=dict)
+    trace: Trace | None = None
+
+    @property
+    def key(self) -> tuple[str, str, int]:
+        return self.problem, self.optimizer, self.trial
+
+
+class Store:
+    """The trials of one results folder. A context manager; opened by one writer at a time."""
+
+    def __init__(self, folder: Path) -> None:
+        self._connection = sqlite3.connect(folder / FILE)
+        self._connection.execute("PRAGMA journal_mode = WAL")
+        self._connection.execute("PRAGMA synchronous = FULL")
+        self._connection.executescript(
+            """
+            CREATE TABLE IF NOT EXISTS study (title TEXT NOT NULL);
+            CREATE TABLE IF NOT EXISTS trials (
+                problem TEXT, optimizer TEXT, trial INTEGER, seed TEXT, status TEXT, reason TEXT,
+                evaluations INTEGER, fitness REAL, rmse REAL, relative_rms REAL, max_error REAL,
+                held_out_rmse REAL, seconds REAL, parameters TEXT, trace BLOB,
+                PRIMARY KEY (problem, optimizer, trial));
+            """
+        )
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
+        self._connection.close()
+
+    def begin(self, title: str) -> None:
+        """Name the study that the trials belong to."""
+        with self._connection:
+            self._connection.execute("DELETE FROM study")
+            self._connection.execute("INSERT INTO study VALUES (?)", (title,))
+
+    def add(self, outcome: Outcome) -> None:
+        """Write one trial; on disk when this returns. Raises sqlite3.IntegrityError if it is there already."""
+        row = (
+            *outcome.key,
+            outcome.seed,
+            outcome.status,
+            outcome.reason,
+            outcome.evaluations,
+            outcome.fitness,
+            outcome.rmse,
+            outcome.relative_rms,
+            outcome.max_error,
+            outcome.held_out_rmse,
+            outcome.seconds,
+            json.dumps(outcome.parameters),
+            None if outcome.trace is None else _packed(outcome.trace),
+        )
+        with self._connection:
+            self._connection.execute(f"INSERT INTO trials VALUES ({', '.join('?' * len(row))})", row)
+
+    def keys(self) -> set[tuple[str, str, int]]:
+        """(problem, optimizer, trial) of every trial that is there."""
+        return set(self._connection.execute("SELECT problem, optimizer, trial FROM trials"))
+
+    def table(self) -> pd.DataFrame:
+        """One row a trial: COLUMNS, then parameter.NAME; ordered by problem, optimizer, trial."""
+        title = next(iter(self._connection.execute("SELECT title FROM study")), ("",))[0]
+        query = "SELECT * FROM trials ORDER BY problem, optimizer, trial"
+        frame = pd.read_sql_query(query, self._connection)
+        parameters = [json.loads(text) for text in frame["parameters"]]
+        names = list(dict.fromkeys(name for values in parameters for name in values))
+        found: dict[str, Any] = {
+            f"parameter.{name}": pd.array([values.get(name) for values in parameters], dtype="Float64")
+            for name in names
+        }
+        frame.insert(0, "study", title)
+        return pd.concat([frame[list(COLUMNS)], pd.DataFrame(found, index=frame.index)], axis=1)
+
+    def traces(self) -> dict[tuple[str, str, int], Trace]:
+        rows = self._connection.execute("SELECT problem, optimizer, trial, trace FROM trials WHERE trace NOT NULL")
+        return {(problem, optimizer, trial): _unpacked(blob) for problem, optimizer, trial, blob in rows}
+
+
+def _packed(trace: Trace) -> bytes:
+    buffer = io.BytesIO()
+    np.savez(buffer, evaluations=trace.evaluations, losses=trace.losses, points=trace.points)
+    return buffer.getvalue()
+
+
+def _unpacked(blob: bytes) -> Trace:
+    with np.load(io.BytesIO(blob)) as arrays:
+        return Trace(arrays["evaluations"], arrays["losses"], arrays["points"])

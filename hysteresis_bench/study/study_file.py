@@ -1,0 +1,213 @@
+"""The study file: TOML in, a checked study out; all faults are told at once, with the nearest known name."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PositiveInt, ValidationError, model_validator
+
+from hysteresis_bench import registry
+from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.loss import LOSSES
+from hysteresis_bench.parameters import Scaling
+
+SECONDS = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def duration(text: Any) -> float:
+    """ "10 min" -> 600.0 seconds; a bare number is seconds. Raises ValueError."""
+    match = re.fullmatch(r"\s*([0-9.]+)\s*(s|sec|min|h)?\s*", str(text))
+    if not match or float(match[1]) <= 0:
+        raise ValueError(f'{text!r} is not a time such as "90 s", "10 min" or "1 h"')
+    return float(match[1]) * SECONDS[match[2] or "s"]
+
+
+class _Strict(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class OptimizerSpec(_Strict):
+    """One optimizer of a study; `label` tells two of the same plugin apart; `budget` overrides the study's."""
+
+    plugin: str
+    label: str = ""
+    settings: dict[str, Any] = {}
+    budget: PositiveInt | None = None
+
+    @property
+    def name(self) -> str:
+        return self.label or self.plugin
+
+
+class ProblemSpec(_Strict):
+    """One problem: where the data come from, what is fitted, and in which box.
+
+    fitted, held_out : experiments of the rig, or names of records (of the data: all where none is named)
+    bounds : replaces the model's own box, parameter by parameter; "data" derives the rest from the data
+    fixed : parameters that are known: not searched
+    """
+
+    name: str
+    model: str
+    settings: dict[str, Any] = {}
+    effects: list[str] = []
+    rig: str | None = None
+    rig_settings: dict[str, Any] = {}
+    data: list[str] = []
+    fitted: list[str] = []
+    held_out: list[str] = []
+    scaling: Scaling | None = None
+    loss: str = "rmse"
+    box: Literal["model", "data"] = "model"
+    bounds: dict[str, tuple[float, float]] = {}
+    fixed: dict[str, float] = {}
+    skip: Annotated[float, BeforeValidator(duration)] | None = None
+    settle: bool = False
+
+    @model_validator(mode="after")
+    def one_source(self) -> ProblemSpec:
+        if (self.rig is None) == (not self.data):
+            raise ValueError('name either a rig = "..." or data = ["a.csv"], not both or none')
+        if self.rig and not self.fitted:
+            raise ValueError('fitted = ["..."] must name at least one experiment of the rig')
+        return self
+
+
+class Study(_Strict):
+    """A checked study. `reference` is the optimizer that the others are compared with."""
+
+    title: str
+    seed: int
+    trials: PositiveInt = 3
+    budget: PositiveInt = 15050
+    timeout: Annotated[float, BeforeValidator(duration)] = 600.0
+    reference: str = "pso"
+    published: str | None = None
+    notes: list[str] = []
+    problem: list[ProblemSpec] = Field(min_length=1)
+    optimizer: list[OptimizerSpec] = Field(min_length=1)
+
+    @property
+    def labels(self) -> list[str]:
+        return [spec.name for spec in self.optimizer]
+
+    def budget_of(self, spec: OptimizerSpec) -> int:
+        return spec.budget or self.budget
+
+    def identity(self) -> dict[str, Any]:
+        """What makes it the same study: all but the trials and the list of optimizers."""
+        return self.model_dump(mode="json", exclude={"trials", "optimizer"})
+
+
+def read_study(path: Path) -> tuple[Study, str]:
+    """A study and its text. Raises UserError telling every fault of the file."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        raw = tomllib.loads(text)
+    except OSError as error:
+        raise UserError(str(path), f"cannot be read: {error.strerror}.") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise UserError(str(path), f"is not valid TOML: {error}.") from error
+    return check_study(raw, str(path)), text
+
+
+def check_study(raw: dict[str, Any], where: str) -> Study:
+    """A study from parsed TOML. Raises UserError telling every fault, of form and of content."""
+    try:
+        study = Study.model_validate(raw)
+    except ValidationError as error:
+        raise UserError(where, [_sentence(fault) for fault in error.errors()] + _plugin_faults(raw)) from None
+    found = _plugin_faults(raw) + _doubles(study)
+    if found:
+        raise UserError(where, found)
+    return study
+
+
+def _place(location: tuple[int | str, ...]) -> str:
+    """("optimizer", 1, "settings") -> [[optimizer]] 2 settings."""
+    words = []
+    for index, part in enumerate(location):
+        if isinstance(part, int):
+            words[-1] = f"[[{words[-1]}]] {part + 1}" if index == 1 else f"{words[-1]} {part + 1}"
+        else:
+            words.append(str(part))
+    return " ".join(words)
+
+
+def _sentence(fault: Any) -> str:
+    location = fault["loc"]
+    if fault["type"] == "extra_forbidden":
+        owner = {"problem": ProblemSpec, "optimizer": OptimizerSpec}.get(str(location[0]), Study)
+        known = owner.model_fields if len(location) > 1 or owner is Study else Study.model_fields
+        place = _place(location[:-1])
+        return f'{place + ": " if place else ""}no key "{location[-1]}". {nearest(str(location[-1]), known)}'
+    message = fault["msg"].removeprefix("Value error, ")
+    return f"{_place(location)}: {message[0].lower() + message[1:]}."
+
+
+def _plugin_faults(raw: dict[str, Any]) -> list[str]:
+    """Unknown plugins, settings, parameters and losses, wherever the file's form lets them be read."""
+    found = []
+    for number, spec in enumerate(_tables(raw, "optimizer"), 1):
+        if isinstance(spec.get("plugin"), str):
+            faults = registry.faults("optimizers", spec["plugin"], spec.get("settings", {}))
+            found += [f"[[optimizer]] {number}: {fault}" for fault in faults]
+    for number, spec in enumerate(_tables(raw, "problem"), 1):
+        found += [f"[[problem]] {number}: {fault}" for fault in _problem_faults(spec)]
+    return found
+
+
+def _tables(raw: dict[str, Any], key: str) -> list[dict[str, Any]]:
+    value = raw.get(key, [])
+    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
+
+
+def _problem_faults(spec: dict[str, Any]) -> list[str]:
+    found = []
+    if isinstance(spec.get("model"), str):
+        faults = registry.faults("models", spec["model"], spec.get("settings", {}))
+        found += faults or _bound_faults(spec)
+    for effect in spec.get("effects", []):
+        found += registry.faults("effects", effect, {})
+    if isinstance(spec.get("rig"), str):
+        faults = registry.faults("rigs", spec["rig"], spec.get("rig_settings", {}))
+        found += faults
+        if not faults:
+            rig = registry.build("rigs", spec["rig"], spec.get("rig_settings", {}))
+            for key in ("fitted", "held_out"):
+                for experiment in spec.get(key, []):
+                    if experiment not in rig.experiments:
+                        known = nearest(str(experiment), rig.experiments)
+                        found.append(f'{key}: rig {spec["rig"]} has no experiment "{experiment}". {known}')
+    if spec.get("loss", "rmse") not in LOSSES:
+        found.append(f'no loss "{spec["loss"]}". {nearest(str(spec["loss"]), LOSSES)}')
+    return found
+
+
+def _bound_faults(spec: dict[str, Any]) -> list[str]:
+    model = registry.build("models", spec["model"], spec.get("settings", {}))
+    parameters = {parameter.name: parameter for parameter in model.parameters}
+    found = []
+    for key in ("bounds", "fixed"):
+        values = spec.get(key, {})
+        for name in values if isinstance(values, dict) else ():
+            if name not in parameters and "." not in name:
+                found.append(f'{key}: {spec["model"]} has no parameter "{name}". {nearest(name, parameters)}')
+    for name, pair in spec.get("bounds", {}).items():
+        numbers = isinstance(pair, list) and len(pair) == 2 and all(isinstance(x, (int, float)) for x in pair)
+        if name in parameters and numbers:
+            scaling = spec.get("scaling") or parameters[name].scaling
+            if scaling in ("linear", "log"):
+                found += [f"bounds {fault}" for fault in parameters[name].within(*pair, scaling).faults()]
+    return found
+
+
+def _doubles(study: Study) -> list[str]:
+    found = []
+    for what, names in (("optimizer", study.labels), ("problem", [problem.name for problem in study.problem])):
+        for name in sorted({name for name in names if names.count(name) > 1}):
+            found.append(f'two [[{what}]] are both called "{name}"; give one another label.')
+    return found
