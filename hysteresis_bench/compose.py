@@ -6,6 +6,7 @@ from collections import namedtuple
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -40,10 +41,7 @@ class System:
 
     def simulate(self, signal: Signal, values: NDArray) -> NDArray:
         """values : (dimension, swarm), in units -> (samples, swarm)."""
-        full = self._with_fixed(values)
-        model_values, *effect_values = (
-            named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)
-        )
+        model_values, *effect_values = self._named(values)
 
         def run(inner_signal: Signal) -> NDArray:
             return self.model.simulate(inner_signal, model_values)
@@ -60,6 +58,15 @@ class System:
             simulated = effect.adjust(simulated, record)
         return simulated
 
+    def offset(self, record: Record, values: NDArray) -> NDArray:
+        """The constants that offset effects add to a record's output, summed: (swarm,)."""
+        simulated = self.simulate(record.signal, values)
+        total = np.zeros(values.shape[1])
+        for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
+            total += effect.offset(simulated, record, p)
+            simulated = effect.adjust(simulated, record)
+        return total
+
     @cached_property
     def _stack(self) -> list[tuple[str, Model | Effect]]:
         return [("", self.model), *((f"{name}.", effect) for name, effect in self.effects)]
@@ -71,17 +78,23 @@ class System:
     @cached_property
     def _rows(self) -> list[slice]:
         ends = np.cumsum([0, *(len(part.parameters) for _, part in self._stack)])
-        return [slice(int(low), int(high)) for low, high in zip(ends, ends[1:], strict=False)]
+        return [slice(int(low), int(high)) for low, high in pairwise(ends)]
+
+    @cached_property
+    def _names(self) -> list[str]:
+        return [prefix + parameter.name for prefix, part in self._stack for parameter in part.parameters]
 
     @cached_property
     def _free_rows(self) -> list[int]:
-        names = [prefix + parameter.name for prefix, part in self._stack for parameter in part.parameters]
-        return [row for row, name in enumerate(names) if name not in self.fixed]
+        return [row for row, name in enumerate(self._names) if name not in self.fixed]
 
     @cached_property
     def _fixed_column(self) -> NDArray:
-        names = [prefix + parameter.name for prefix, part in self._stack for parameter in part.parameters]
-        return np.array([[self.fixed.get(name, np.nan)] for name in names]).reshape(-1, 1)
+        return np.array([[self.fixed.get(name, np.nan)] for name in self._names])
+
+    def _named(self, values: NDArray) -> list[Any]:
+        full = self._with_fixed(values)
+        return [named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)]
 
     def _with_fixed(self, values: NDArray) -> NDArray:
         if not self.fixed:

@@ -13,6 +13,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar, Protocol
 
+import numpy as np
 from numpy.random import Generator
 from numpy.typing import NDArray
 
@@ -65,8 +66,12 @@ class Effect(ABC):
         return ""
 
     def adjust(self, simulated: NDArray, record: Record) -> NDArray:
-        """What the effect estimates anew on every record (a nuisance); simulated : (samples, swarm)."""
+        """The output with what the effect estimates anew on every record; simulated : (samples, swarm)."""
         return simulated
+
+    def offset(self, simulated: NDArray, record: Record, p: Any) -> NDArray:
+        """The constant that the effect adds to this record's output, (swarm,): relative errors leave it out."""
+        return np.zeros(simulated.shape[1])
 
 
 class Objective(Protocol):

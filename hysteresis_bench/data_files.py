@@ -57,7 +57,7 @@ def read_csv(path: Path, output_needed: bool = True) -> Dataset:
     for run in dict.fromkeys(runs):
         rows = np.nonzero(runs == run)[0]
         name = f"{path.stem}:{run}" if "run" in frame else path.stem
-        faults += _record_faults(numbers, rows, name)
+        faults += _record_faults(numbers, rows, name, to_fit=output_needed)
         columns = {key: values[rows] for key, values in numbers.items() if key not in ("time", "input", "output")}
         output = numbers["output"][rows] if "output" in numbers else None
         records.append(
@@ -124,7 +124,7 @@ def _number_faults(frame: pd.DataFrame, names: Sequence[str]) -> list[str]:
     return faults
 
 
-def _record_faults(numbers: dict[str, NDArray], rows: NDArray, name: str) -> list[str]:
+def _record_faults(numbers: dict[str, NDArray], rows: NDArray, name: str, to_fit: bool) -> list[str]:
     if rows.size < 2:
         return [f"record {name} has {rows.size} sample; at least 2 are needed."]
     faults = []
@@ -136,7 +136,7 @@ def _record_faults(numbers: dict[str, NDArray], rows: NDArray, name: str) -> lis
             f'row {row + 2}, column "time": {value:g} does not come after {before:g}; '
             f"time must strictly increase within a record."
         )
-    if np.ptp(numbers["input"][rows]) == 0:
+    if to_fit and np.ptp(numbers["input"][rows]) == 0:
         faults.append(
             f'record {name}, column "input": constant at {numbers["input"][rows[0]]:g}; nothing can be identified '
             f"from an input that does not move."

@@ -128,7 +128,7 @@ def check_study(raw: dict[str, Any], where: str) -> Study:
 
 def _place(location: tuple[int | str, ...]) -> str:
     """("optimizer", 1, "settings") -> [[optimizer]] 2 settings."""
-    words = []
+    words: list[str] = []
     for index, part in enumerate(location):
         if isinstance(part, int):
             words[-1] = f"[[{words[-1]}]] {part + 1}" if index == 1 else f"{words[-1]} {part + 1}"
@@ -140,7 +140,8 @@ def _place(location: tuple[int | str, ...]) -> str:
 def _sentence(fault: Any) -> str:
     location = fault["loc"]
     if fault["type"] == "extra_forbidden":
-        owner = {"problem": ProblemSpec, "optimizer": OptimizerSpec}.get(str(location[0]), Study)
+        owners: dict[str, type[BaseModel]] = {"problem": ProblemSpec, "optimizer": OptimizerSpec}
+        owner = owners.get(str(location[0]), Study)
         known = owner.model_fields if len(location) > 1 or owner is Study else Study.model_fields
         place = _place(location[:-1])
         return f'{place + ": " if place else ""}no key "{location[-1]}". {nearest(str(location[-1]), known)}'

@@ -23,6 +23,9 @@ class Bias(Effect):
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
         return inner(signal) + p.offset
 
+    def offset(self, simulated: NDArray, record: Record, p: Any) -> NDArray:
+        return np.asarray(p.offset)
+
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         low = min(float(np.min(record.measured)) for record in records)
         high = max(float(np.max(record.measured)) for record in records)

@@ -19,17 +19,20 @@ class RecordOffset(Effect):
     """One constant a record: a nuisance, estimated on every record that has an output as the mean of
     measured minus simulated over its scored samples (the least-squares estimate).
 
-    `offset` is what a record without an output is given; a fit writes the median of its records here.
+    `default` is what a record without an output is given; a fit writes the median of its records here.
     """
 
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
-    offset: float = 0.0
+    default: float = 0.0
 
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
         return inner(signal)
 
     def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+        return simulated + self.offset(simulated, record, None)
+
+    def offset(self, simulated: NDArray, record: Record, p: Any) -> NDArray:
         if record.output is None:
-            return simulated + self.offset
-        return simulated + (np.mean(record.measured) - np.mean(simulated[record.scored], axis=0))
+            return np.full(simulated.shape[1], self.default)
+        return np.mean(record.measured) - np.mean(simulated[record.scored], axis=0)

@@ -1,0 +1,93 @@
+"""From a problem's specification to the problem itself: data, system, box."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from hysteresis_bench import registry
+from hysteresis_bench.compose import System
+from hysteresis_bench.data_files import read_data
+from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.identify import generator
+from hysteresis_bench.loss import LOSSES
+from hysteresis_bench.objective import Problem
+from hysteresis_bench.parameters import Parameter, Space
+from hysteresis_bench.signals import Dataset, joined
+from hysteresis_bench.study.study_file import ProblemSpec
+
+SETTLING_REPEATS = 3
+"""Repeats of a closed loop before it is scored."""
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """A problem ready to be searched, and the data set it came from."""
+
+    problem: Problem
+    dataset: Dataset
+
+
+def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
+    """folder : where relative data files are looked for. Raises UserError for what the data make impossible."""
+    dataset = measured(spec, seed) if spec.rig else _read(spec, folder)
+    if spec.skip is not None:
+        skip = spec.skip
+        dataset = dataset.map(lambda record: record.skip(skip))
+    if spec.settle:
+        dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
+    system = build_system(spec.model, spec.settings, spec.effects, spec.fixed)
+    faults = inapplicable(system, dataset)
+    boxes = system.box(dataset.fitted) if spec.box == "data" else system.parameters
+    parameters, more = boxed(boxes, spec)
+    if faults + more:
+        raise UserError(f'problem "{spec.name}"', faults + more)
+    return Built(Problem(system, dataset.fitted, Space(parameters), LOSSES[spec.loss]), dataset)
+
+
+def build_system(
+    model: str, settings: dict | None = None, effects: Sequence[str] = (), fixed: dict[str, float] | None = None
+) -> System:
+    """A registered model with registered effects around it, innermost first."""
+    stack = tuple((name, registry.build("effects", name)) for name in effects)
+    return System(registry.build("models", model, settings), stack, fixed or {})
+
+
+def inapplicable(system: System, dataset: Dataset) -> list[str]:
+    """Why effects of the system cannot be fitted to the data, a sentence each."""
+    reasons = [(name, effect.inapplicable(dataset.fitted)) for name, effect in system.effects]
+    return [f"effect {name}: {reason}" for name, reason in reasons if reason]
+
+
+def boxed(boxes: Sequence[Parameter], spec: ProblemSpec) -> tuple[tuple[Parameter, ...], list[str]]:
+    """The parameters in the specification's box, and what is wrong with it."""
+    names = [parameter.name for parameter in boxes]
+    faults = [f'bounds: no parameter "{name}". {nearest(name, names)}' for name in spec.bounds if name not in names]
+    parameters = []
+    for parameter in boxes:
+        lower, upper = spec.bounds.get(parameter.name, (parameter.lower, parameter.upper))
+        parameters.append(parameter.within(lower, upper, spec.scaling))
+        faults += parameters[-1].faults()
+    return tuple(parameters), faults
+
+
+def measured(spec: ProblemSpec, seed: int) -> Dataset:
+    """The rig's experiments; what is measured depends on the seed, the rig and the experiment alone."""
+    assert spec.rig is not None
+    rig = registry.build("rigs", spec.rig, spec.rig_settings)
+    experiments = [*spec.fitted, *spec.held_out]
+    datasets = [rig.measure(name, generator(seed, spec.rig, name)) for name in experiments]
+    held_out = [name for dataset in datasets[len(spec.fitted) :] for name in dataset.names]
+    return joined(*datasets).split(held_out)
+
+
+def _read(spec: ProblemSpec, folder: Path) -> Dataset:
+    dataset = read_data([folder / file for file in spec.data])
+    wanted = [*(spec.fitted or [name for name in dataset.names if name not in spec.held_out]), *spec.held_out]
+    unknown = [name for name in wanted if name not in dataset.names]
+    if unknown:
+        where = f'problem "{spec.name}"'
+        raise UserError(where, [f'no record "{name}". {nearest(name, dataset.names)}' for name in unknown])
+    records = tuple(record for record in dataset.records if record.name in wanted)
+    return replace(dataset, records=records).split(spec.held_out)
