@@ -1,0 +1,28 @@
+"""nlopt's DIRECT-L: dividing rectangles, locally biased.
+
+[1] J. M. Gablonsky, C. T. Kelley, A locally-biased form of the DIRECT algorithm, Journal of Global
+    Optimization 21 (2001) 27-37.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from numpy.random import Generator
+
+from hysteresis_bench.contracts import Objective, Optimizer, Start
+
+
+@dataclass(frozen=True)
+class NloptDirectL(Optimizer):
+    """Division of the box into rectangles, locally biased (DIRECT-L, nlopt); deterministic.
+
+    Bounds: it samples centres of rectangles inside the box. The shared first points do not enter, and a
+    restart would repeat it.
+    """
+
+    def search(self, objective: Objective, start: Start, rng: Generator) -> None:
+        from hysteresis_plugins.optimizers._nlopt import prepared, run
+
+        search = prepared("GN_DIRECT_L", objective, rng)
+        run(search, start(1)[:, 0])
