@@ -30,7 +30,7 @@ def accuracy(system: System, records: Sequence[Record], values: NDArray) -> Accu
     squares, samples, scale, largest = 0.0, 0, 0.0, 0.0
     for record in records:
         error = system.respond(record, column)[record.scored, 0] - record.measured
-        offset = float(system.offset(record, column)[0])
+        offset = float(sum(offset[0] for offset in system.offsets(record, column)))
         squares += float(error @ error)
         samples += error.size
         scale = max(scale, float(np.max(np.abs(record.measured - offset))))

@@ -58,14 +58,14 @@ class System:
             simulated = effect.adjust(simulated, record)
         return simulated
 
-    def offset(self, record: Record, values: NDArray) -> NDArray:
-        """The constants that offset effects add to a record's output, summed: (swarm,)."""
+    def offsets(self, record: Record, values: NDArray) -> list[NDArray]:
+        """The constant that each effect adds to a record's output, (swarm,) an effect, in their order."""
         simulated = self.simulate(record.signal, values)
-        total = np.zeros(values.shape[1])
+        found = []
         for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
-            total += effect.offset(simulated, record, p)
+            found.append(effect.offset(simulated, record, p))
             simulated = effect.adjust(simulated, record)
-        return total
+        return found
 
     @cached_property
     def _stack(self) -> list[tuple[str, Model | Effect]]:

@@ -73,6 +73,10 @@ class Effect(ABC):
         """The constant that the effect adds to this record's output, (swarm,): relative errors leave it out."""
         return np.zeros(simulated.shape[1])
 
+    def remembered(self, offsets: Sequence[float]) -> Effect:
+        """The effect as a fitted model keeps it; offsets : what it added to each of the fitted records."""
+        return self
+
 
 class Objective(Protocol):
     """What an optimizer sees: a metered loss on the unit box. Every answer is finite.

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -19,7 +19,7 @@ class RecordOffset(Effect):
     """One constant a record: a nuisance, estimated on every record that has an output as the mean of
     measured minus simulated over its scored samples (the least-squares estimate).
 
-    `default` is what a record without an output is given; a fit writes the median of its records here.
+    `default` is what a record without an output is given; the median of a fit's records.
     """
 
     parameters: ClassVar[tuple[Parameter, ...]] = ()
@@ -36,3 +36,6 @@ class RecordOffset(Effect):
         if record.output is None:
             return np.full(simulated.shape[1], self.default)
         return np.mean(record.measured) - np.mean(simulated[record.scored], axis=0)
+
+    def remembered(self, offsets: Sequence[float]) -> RecordOffset:
+        return replace(self, default=float(np.median(offsets)))

@@ -1,0 +1,278 @@
+"""The command line: arguments in, one call, tables and paths out."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from hysteresis_bench import registry
+from hysteresis_bench.errors import UserError, nearest
+
+DONE, FAILED_TRIALS, USER_AT_FAULT = 0, 1, 2
+KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
+
+existing_file = click.Path(path_type=Path)
+folder = click.Path(path_type=Path, file_okay=False)
+
+
+class Group(click.Group):
+    """Tells a user's mistake in one message, without a traceback, and exits with 2."""
+
+    def main(self, *args: Any, **kwargs: Any) -> Any:
+        try:
+            return super().main(*args, **kwargs)
+        except UserError as error:
+            Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {_escaped(str(error))}", highlight=False)
+            sys.exit(USER_AT_FAULT)
+
+    def resolve_command(self, context: click.Context, args: list[str]) -> Any:
+        if args and self.get_command(context, args[0]) is None:
+            raise UserError("hysteresis-bench", f'no command "{args[0]}". {nearest(args[0], self.commands)}')
+        return super().resolve_command(context, args)
+
+
+def _escaped(text: str) -> str:
+    from rich.markup import escape
+
+    return escape(text)
+
+
+def _console() -> Console:
+    return Console(soft_wrap=False)
+
+
+@click.group(cls=Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
+@click.version_option(package_name="hysteresis-bench")
+def main() -> None:
+    """Identify hysteresis models of actuators from measured data, settle which optimizer is worth using,
+    and find what the model lacks."""
+
+
+@main.command()
+@click.argument("study", type=existing_file)
+@click.option("--trials", type=click.IntRange(min=1), help="Trials of every optimizer; default: the study file's.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Worker processes; default: all cores.")
+@click.option("--out", type=folder, help="Results folder; default: results/NAME.")
+def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> None:
+    """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
+    from hysteresis_bench.progress import progress_bar
+    from hysteresis_bench.report import write_report
+    from hysteresis_bench.report.console import print_summary
+    from hysteresis_bench.study.results import FINISHED, read_results
+    from hysteresis_bench.study.run import run_study
+
+    console = _console()
+    try:
+        with progress_bar(console) as tell:
+            results_folder = run_study(study, trials=trials, jobs=jobs, out=out, tell=tell)
+    except KeyboardInterrupt:
+        raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
+    page = write_report(results_folder)
+    results = read_results(results_folder)
+    print_summary(results, console)
+    failed = results.trials[~results.trials["status"].isin(FINISHED)]
+    for row in failed.itertuples():
+        console.print(
+            f"{row.problem} · {row.optimizer} · trial {row.trial}: {row.status}: {row.reason}", highlight=False
+        )
+    _say_path(console, "report", page)
+    sys.exit(FAILED_TRIALS if len(failed) else DONE)
+
+
+@main.command()
+@click.argument("results", type=folder)
+@click.option("--open", "open_it", is_flag=True, help="Open the report in a browser.")
+def report(results: Path, open_it: bool) -> None:
+    """Write the report of a results folder again."""
+    from hysteresis_bench.report import write_report
+
+    page = write_report(results)
+    _say_path(_console(), "report", page)
+    if open_it:
+        click.launch(str(page))
+
+
+def _model_options(command: Callable) -> Callable:
+    """What `fit` needs to know about the data and the model."""
+    for option in reversed(
+        (
+            click.argument("data", type=existing_file, nargs=-1, required=True),
+            click.option("--model", required=True, help="A registered model; see `list models`."),
+            click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated."),
+            click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter."),
+            click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known."),
+            click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted."),
+            click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input."),
+            click.option("--flip", is_flag=True, help="Change the sign of the input."),
+            click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored."),
+            click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring."),
+            click.option("--seed", type=int, default=0, show_default=True),
+        )
+    ):
+        command = option(command)
+    return command
+
+
+@main.command()
+@_model_options
+@click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
+@click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@click.option("--out", type=folder, help="Where model.json, the figure and the page go; default: NAME-fit.")
+def fit(
+    data: Sequence[Path],
+    model: str,
+    effects: Sequence[str],
+    bounds: Sequence[str],
+    fixed: Sequence[str],
+    held_out: Sequence[str],
+    input_offset: float,
+    flip: bool,
+    skip: float | None,
+    settle: bool,
+    seed: int,
+    optimizer: str | None,
+    budget: int | None,
+    out: Path | None,
+) -> None:
+    """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
+    from hysteresis_bench import fit as fit_model
+    from hysteresis_bench import load
+    from hysteresis_bench.report.console import print_fit
+    from hysteresis_bench.report.fit_page import write_fit
+
+    dataset = load(*data, held_out=held_out, skip=skip)
+    fitted = fit_model(
+        dataset,
+        model,
+        effects,
+        bounds=_pairs(bounds),
+        fixed=_values(fixed),
+        settle=settle,
+        input_offset=input_offset,
+        flip=flip,
+        seed=seed,
+        **({"optimizer": optimizer} if optimizer else {}),
+        **({"budget": budget} if budget else {}),
+    )
+    console = _console()
+    print_fit(fitted, console)
+    page = write_fit(out or Path(f"{data[0].stem}-fit"), fitted, data)
+    _say_path(console, "page", page)
+
+
+@main.command()
+@click.argument("model", type=existing_file)
+@click.argument("data", type=existing_file, nargs=-1, required=True)
+@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
+def predict(model: Path, data: Sequence[Path], out: Path) -> None:
+    """Predict the output of DATA.csv ... with a fitted MODEL.json."""
+    from hysteresis_bench import predict as predict_output
+    from hysteresis_bench.data_files import write_csv
+
+    write_csv(out, predict_output(model, *data))
+    _say_path(_console(), "prediction", out)
+
+
+@main.command()
+@click.argument("rig")
+@click.argument("experiment")
+@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
+@click.option("--seed", type=int, default=0, show_default=True)
+def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
+    """Take data from a virtual RIG (see `list rigs`)."""
+    from hysteresis_bench.data_files import write_csv
+    from hysteresis_bench.identify import generator
+
+    faults = registry.faults("rigs", rig, {})
+    if faults:
+        raise UserError("measure", faults)
+    bench = registry.build("rigs", rig)
+    if experiment not in bench.experiments:
+        known = nearest(experiment, bench.experiments)
+        raise UserError("measure", f'rig {rig} has no experiment "{experiment}". {known}')
+    write_csv(out, bench.measure(experiment, generator(seed, rig, experiment)))
+    _say_path(_console(), "data", out)
+
+
+@main.command("list")
+@click.argument("what", required=False)
+def list_plugins(what: str | None) -> None:
+    """List models, effects, optimizers, rigs or studies; all of them without an argument."""
+    known = (*KINDS, "studies")
+    if what is not None and what not in known:
+        raise UserError("list", f'there are no "{what}". {nearest(what, known)}')
+    console = _console()
+    for kind in KINDS:
+        if what in (None, kind):
+            _list_kind(kind, console)
+    if what in (None, "studies"):
+        _list_studies(console)
+
+
+def _list_kind(kind: registry.Kind, console: Console) -> None:
+    table = Table(title=kind, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
+    for name in registry.names(kind):
+        plugin = registry.load(kind, name)
+        summary = plugin.summary
+        if kind == "rigs" and plugin.loaded is not None:
+            summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
+        table.add_row(f"  {name}", _escaped(summary), style="red" if plugin.fault else "")
+    console.print(table)
+
+
+def _list_studies(console: Console) -> None:
+    import tomllib
+
+    table = Table(
+        title="studies", title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False
+    )
+    for path in sorted(Path("studies").glob("*.toml")):
+        if path.name.endswith(".published.toml"):
+            continue
+        try:
+            title = str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", ""))
+        except (OSError, tomllib.TOMLDecodeError) as error:
+            title = f"broken: {error}"
+        table.add_row(f"  {path}", _escaped(title))
+    if not table.row_count:
+        table.add_row("  none", "there is no folder studies/ here")
+    console.print(table)
+
+
+def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """P=LO:HI ..."""
+    found, faults = {}, []
+    for text in texts:
+        name, _, interval = text.partition("=")
+        low, _, high = interval.partition(":")
+        try:
+            found[name.strip()] = (float(low), float(high))
+        except ValueError:
+            faults.append(f'"{text}" should read PARAMETER=LOW:HIGH, such as a=0.1:10.')
+    if faults:
+        raise UserError("--bounds", faults)
+    return found
+
+
+def _values(texts: Sequence[str]) -> dict[str, float]:
+    """P=VALUE ..."""
+    found, faults = {}, []
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name.strip()] = float(value)
+        except ValueError:
+            faults.append(f'"{text}" should read PARAMETER=VALUE, such as n=1.')
+    if faults:
+        raise UserError("--fix", faults)
+    return found
+
+
+def _say_path(console: Console, what: str, path: Path) -> None:
+    console.print(f"{what}: {path}", highlight=False, soft_wrap=True)

@@ -1,0 +1,293 @@
+"""Fit a model to a user's own records: box from the data, two searches, polish, standard errors, warnings."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
+from importlib.metadata import version
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from hysteresis_bench import registry
+from hysteresis_bench.accuracy import accuracy
+from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Optimizer
+from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.identifiability import Identifiability, analyse
+from hysteresis_bench.identify import generator, polish, search, shared_start
+from hysteresis_bench.loss import LOSSES
+from hysteresis_bench.model_file import Estimate, FittedModel, Preparation
+from hysteresis_bench.objective import Problem
+from hysteresis_bench.parameters import Parameter, Space
+from hysteresis_bench.signals import Dataset, Record
+
+DEFAULT_OPTIMIZER = "pso-constriction"
+DEFAULT_BUDGET = 15050
+AGREE = 0.01
+"""Two searches agree when neither's RMSE is more than 1 % above the other's, and their simulated outputs
+differ by less than 1 % of the measured range (RMS)."""
+AT_BOUND = 1e-3
+"""A parameter within this fraction of its (scaled) box from an edge is said to lie at its bound."""
+CLOSED = 1e-3
+"""A settled loop's last two passes differ by less than this fraction of the range of the output."""
+FIRST_REPEATS, MOST_REPEATS = 2, 32
+"""Passes before a loop is scored: doubled until it closes, or until the fit says that it does not."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fit:
+    """A fitted model and how good it is.
+
+    model : ready to predict and to be written
+    records : one row a record: record, role, rmse, relative_rms, max_error
+    responses : record, role, time, input, output, simulated, over the scored samples
+    parameters : one row a parameter: name, value, standard_error, unit, at_bound
+    agreement : a sentence on whether two searches with other starts agree
+    warnings : sentences on what the model cannot follow, or what the data cannot tell
+    """
+
+    model: FittedModel
+    records: pd.DataFrame
+    responses: pd.DataFrame
+    parameters: pd.DataFrame
+    identifiability: Identifiability
+    agreement: str
+    agrees: bool
+    warnings: tuple[str, ...]
+
+
+def fit_records(
+    dataset: Dataset,
+    model: str,
+    effects: Sequence[str] = (),
+    *,
+    settings: Mapping[str, Any] | None = None,
+    optimizer: str = DEFAULT_OPTIMIZER,
+    optimizer_settings: Mapping[str, Any] | None = None,
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    fixed: Mapping[str, float] | None = None,
+    budget: int = DEFAULT_BUDGET,
+    seed: int = 0,
+    settle: bool = False,
+    input_offset: float = 0.0,
+    flip: bool = False,
+) -> Fit:
+    """Fit a registered model, with effects around it, to the fitted records of a data set.
+
+    bounds : replaces parts of the box that the model derives from the data
+    settle : closed loops are repeated until they close before they are scored
+    input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    Raises UserError telling every fault at once.
+    """
+    preparation = Preparation(input_offset, flip)
+    seen = dataset.map(preparation)
+    system = _system(model, settings or {}, effects, fixed or {}, optimizer, optimizer_settings or {})
+    _check(system, seen, settle)
+    space = _space(system, seen.fitted, bounds or {})
+    built = registry.build("optimizers", optimizer, optimizer_settings)
+    repeats = FIRST_REPEATS
+    while True:
+        ready = seen.map(lambda record, n=repeats: record.settled(n)) if settle else seen
+        problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
+        found = [polish(problem, _search(problem, built, budget, seed, run)) for run in (0, 1)]
+        losses = [float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found]
+        values = found[int(np.argmin(losses))]
+        gap = _gap(system, ready.records, values, repeats) if settle else 0.0
+        if gap < CLOSED or repeats >= MOST_REPEATS:
+            break
+        repeats *= 2
+    warnings = list(system.model.advice(seen.fitted))
+    if gap >= CLOSED:
+        warnings.append(
+            f"After {repeats} passes the simulated loop still moves by {100 * gap:.1f} % of its range a pass: "
+            f"the model does not close this loop."
+        )
+    analysis = analyse(problem, values)
+    fitted = _model(
+        problem,
+        values,
+        analysis.standard_errors,
+        dataset,
+        ready,
+        model,
+        settings=settings or {},
+        preparation=preparation,
+    )
+    return _told(fitted, problem, dataset, ready, analysis, _agreement(problem, found, losses), warnings)
+
+
+def _system(
+    model: str,
+    settings: Mapping[str, Any],
+    effects: Sequence[str],
+    fixed: Mapping[str, float],
+    optimizer: str,
+    optimizer_settings: Mapping[str, Any],
+) -> System:
+    faults = registry.faults("models", model, settings) + registry.faults("optimizers", optimizer, optimizer_settings)
+    for effect in effects:
+        faults += registry.faults("effects", effect, {})
+    if faults:
+        raise UserError("fit", faults)
+    stack = tuple((name, registry.build("effects", name)) for name in effects)
+    system = System(registry.build("models", model, settings), stack)
+    names = [parameter.name for parameter in system.parameters]
+    unknown = [f'fixed: no parameter "{name}". {nearest(name, names)}' for name in fixed if name not in names]
+    if unknown:
+        raise UserError("fit", unknown)
+    return replace(system, fixed=fixed)
+
+
+def _check(system: System, dataset: Dataset, settle: bool) -> None:
+    faults = []
+    for name, effect in system.effects:
+        if reason := effect.inapplicable(dataset.fitted):
+            faults.append(f"effect {name}: {reason}")
+    for record in dataset.fitted:
+        if np.ptp(record.measured) == 0:
+            faults.append(f"record {record.name}: the output is constant; there is nothing to identify.")
+        step = float(np.max(np.abs(np.diff(record.input))))
+        if settle and abs(record.input[-1] - record.input[0]) > 2 * step:
+            faults.append(
+                f"record {record.name} is not a closed loop: its input begins at {record.input[0]:g} and ends at "
+                f"{record.input[-1]:g}. Leave --settle out, or cut the record to whole periods."
+            )
+    samples = sum(record.measured.size for record in dataset.fitted)
+    if samples <= len(system.parameters):
+        faults.append(f"{samples} samples cannot determine {len(system.parameters)} parameters.")
+    if faults:
+        raise UserError("fit", faults)
+
+
+def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple[float, float]]) -> Space:
+    boxes = system.box(records)
+    names = [parameter.name for parameter in boxes]
+    faults = [f'bounds: no parameter "{name}". {nearest(name, names)}' for name in bounds if name not in names]
+    parameters: list[Parameter] = []
+    for parameter in boxes:
+        lower, upper = bounds.get(parameter.name, (parameter.lower, parameter.upper))
+        scaling = "linear" if lower <= 0 else parameter.scaling
+        parameters.append(parameter.within(lower, upper, scaling))
+        faults += [f"bounds {fault}" for fault in parameters[-1].faults()]
+    if faults:
+        raise UserError("fit", faults)
+    return Space(tuple(parameters))
+
+
+def _search(problem: Problem, optimizer: Optimizer, budget: int, seed: int, run: int) -> NDArray:
+    start = shared_start(problem.space.dimension, seed, "fit", run)
+    return search(problem, optimizer, budget, start, generator(seed, "fit", run)).values
+
+
+def _gap(system: System, records: Sequence[Record], values: NDArray, repeats: int) -> float:
+    """How far the last two passes of the worst loop differ, as a fraction of the range of its output."""
+    gaps = []
+    for record in records:
+        simulated = system.respond(record, values[:, None])[:, 0]
+        period = record.time.size // (repeats + 1)
+        last, before = simulated[-period:], simulated[-2 * period : -period]
+        gaps.append(float(np.max(np.abs(last - before)) / (np.ptp(record.measured) or 1.0)))
+    return max(gaps)
+
+
+def _agreement(problem: Problem, found: Sequence[NDArray], losses: Sequence[float]) -> tuple[bool, str]:
+    points = [problem.space.to_unit(values[:, None])[:, 0] for values in found]
+    difference = problem.residuals(points[0]) - problem.residuals(points[1])
+    spread = max(float(np.ptp(record.measured)) for record in problem.records) or 1.0
+    apart = float(np.sqrt(np.mean(difference**2))) / spread
+    ratio = max(losses) / (min(losses) or 1e-300)
+    if ratio > 1 + AGREE and max(losses) > 1e-9 * problem.scale:
+        return False, (
+            f"Two searches from other starts do NOT agree: their RMSE differ by {100 * (ratio - 1):.3g} %. "
+            f"The better one is shown; a larger budget or narrower bounds may find a better one still."
+        )
+    if apart > AGREE:
+        return False, (
+            f"Two searches from other starts fit equally well but do NOT agree: their outputs differ by "
+            f"{100 * apart:.2g} % of the range (RMS)."
+        )
+    return True, f"Two searches from other starts agree (outputs within {100 * apart:.2g} % of the range)."
+
+
+def _told(
+    fitted: FittedModel,
+    problem: Problem,
+    dataset: Dataset,
+    ready: Dataset,
+    analysis: Identifiability,
+    agreement: tuple[bool, str],
+    warnings: Sequence[str],
+) -> Fit:
+    """dataset : as measured; ready : as the model sees it, the same records in the same order."""
+    system, values = problem.system, fitted.values
+    parameters = _parameter_table(problem, fitted)
+    records, responses = [], []
+    for record, seen in zip(dataset.records, ready.records, strict=True):
+        named = {"record": record.name, "role": "held-out" if record.name in dataset.held_out_names else "fitted"}
+        records.append({**named, **accuracy(system, [seen], values).as_dict()})
+        columns = {
+            "time": record.time[record.scored],
+            "input": record.input[record.scored],
+            "output": record.measured,
+            "simulated": system.respond(seen, values[:, None])[seen.scored, 0],
+        }
+        responses.append(pd.DataFrame({**named, **columns}))
+    agrees, sentence = agreement
+    edges = [
+        f"{row.name} lies at the edge of its box ({row.value:.4g}): the optimum may lie outside, and its standard "
+        f"error means little."
+        for row in parameters[parameters["at_bound"]].itertuples(index=False)
+    ]
+    return Fit(
+        fitted,
+        pd.DataFrame(records),
+        pd.concat(responses, ignore_index=True),
+        parameters,
+        analysis,
+        sentence,
+        agrees,
+        (*warnings, *edges, *analysis.sentences()),
+    )
+
+
+def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
+    points = problem.space.to_unit(fitted.values[:, None])[:, 0]
+    rows = [
+        {"name": name, **asdict(estimate), "at_bound": bool(point < AT_BOUND or point > 1 - AT_BOUND)}
+        for (name, estimate), point in zip(fitted.parameters.items(), points, strict=True)
+    ]
+    return pd.DataFrame(rows)
+
+
+def _model(
+    problem: Problem, values: NDArray, errors: NDArray, dataset: Dataset, ready: Dataset, model: str, **more: Any
+) -> FittedModel:
+    system, units = problem.system, dataset.units
+    offsets = np.array([[float(o[0]) for o in system.offsets(r, values[:, None])] for r in ready.fitted])
+    remembered = {
+        name: effect.remembered(list(offsets[:, index])) for index, (name, effect) in enumerate(system.effects)
+    }
+    error = {"fitted": accuracy(system, ready.fitted, values).as_dict()}
+    if ready.held_out:
+        error["held_out"] = accuracy(system, ready.held_out, values).as_dict()
+    return FittedModel(
+        model,
+        effects=tuple(remembered),
+        effect_settings={name: asdict(effect) for name, effect in remembered.items()},  # type: ignore[call-overload]
+        units=units,
+        parameters={
+            parameter.name: Estimate(
+                float(value), float(error) if np.isfinite(error) else None, parameter.unit.format(**units)
+            )
+            for parameter, value, error in zip(problem.space.parameters, values, errors, strict=True)
+        },
+        fixed=system.fixed,
+        data={"fitted": [r.name for r in dataset.fitted], "held_out": [r.name for r in dataset.held_out]},
+        error=error,
+        created_by={"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
+        **more,
+    )

@@ -1,0 +1,46 @@
+"""The progress bar of a study: trials done, time left, best so far."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
+
+if TYPE_CHECKING:
+    from hysteresis_bench.study.run import Progress as Step
+
+
+@contextmanager
+def progress_bar(console: Console) -> Iterator[Callable[[Step], None]]:
+    """Yields the function that a study tells its steps to."""
+    best: dict[str, tuple[float, str]] = {}
+    failed = 0
+    columns = (
+        TextColumn("trials"),
+        BarColumn(bar_width=24),
+        MofNCompleteColumn(),
+        TimeElapsedColumn(),
+        TextColumn("left"),
+        TimeRemainingColumn(compact=True),
+        TextColumn("{task.description}"),
+    )
+    with Progress(*columns, console=console, speed_estimate_period=300) as bar:
+        task = bar.add_task("", total=None)
+
+        def tell(step: Step) -> None:
+            nonlocal failed
+            outcome = step.outcome
+            if outcome is not None and outcome.fitness is None:
+                failed += 1
+            elif outcome is not None and outcome.relative_rms is not None:
+                entry = (outcome.relative_rms, outcome.optimizer)
+                best[outcome.problem] = min(entry, best.get(outcome.problem, entry))
+            parts = [f"{problem}: {100 * rms:.2f} % {name}" for problem, (rms, name) in sorted(best.items())]
+            parts += [f"[red]{failed} failed[/]"] if failed else []
+            description = ("best " if best else "") + " · ".join(parts)
+            bar.update(task, completed=step.done, total=step.total, description=description)
+
+        yield tell
