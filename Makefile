@@ -1,0 +1,33 @@
+# `make study` and `make test` are all one needs; both set up .venv first. Only Python (>= 3.11) and make are required.
+PYTHON ?= python3
+TRIALS ?= 3
+STUDY  ?= studies/sma.toml
+BIN    := .venv/bin
+
+.PHONY: install study test benchmark clean
+
+install: .venv/installed
+
+study: install
+	$(BIN)/hysteresis-bench run $(STUDY) --trials $(TRIALS)
+
+test: .venv/installed-test
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy
+	$(BIN)/python -m pytest
+
+benchmark: .venv/installed-test
+	$(BIN)/python benchmarks/kernels.py
+
+clean:
+	rm -rf .venv .pytest_cache .ruff_cache .mypy_cache .hypothesis
+
+.venv/installed: pyproject.toml
+	test -x $(BIN)/python || $(PYTHON) -m venv .venv
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable .
+	touch $@
+
+.venv/installed-test: .venv/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	touch $@
