@@ -57,7 +57,7 @@ def read_csv(path: Path, output_needed: bool = True) -> Dataset:
     for run in dict.fromkeys(runs):
         rows = np.nonzero(runs == run)[0]
         name = f"{path.stem}:{run}" if "run" in frame else path.stem
-        faults += _record_faults(numbers, rows, name, to_fit=output_needed)
+        faults += _record_faults(numbers, rows, frame.index[rows], name, to_fit=output_needed)
         columns = {key: values[rows] for key, values in numbers.items() if key not in ("time", "input", "output")}
         output = numbers["output"][rows] if "output" in numbers else None
         records.append(
@@ -86,24 +86,26 @@ def _label(name: str, units: object) -> str:
 
 
 def _table(path: Path) -> tuple[pd.DataFrame, dict[str, str]]:
+    """The cells as text, indexed by line number, with plain column names; and the units in brackets."""
     try:
-        frame = pd.read_csv(path, dtype=str, keep_default_na=False, skip_blank_lines=True)
+        cells = pd.read_csv(path, header=None, dtype=str, keep_default_na=False, skip_blank_lines=False).fillna("")
     except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
         reason = getattr(error, "strerror", None) or str(error).strip().splitlines()[0]
         raise UserError(str(path), f"cannot be read as CSV: {reason}.") from None
+    cells.index += 1
+    header, frame = cells.iloc[0], cells.iloc[1:]
     units = {"time": "s", "input": "1", "output": "1"}
     names = []
-    for column in frame.columns:
-        match = HEADER.fullmatch(str(column))
-        name = match["name"].lower() if match else str(column)
+    for column in header:
+        match = HEADER.fullmatch(column)
+        names.append(match["name"].lower() if match else column)
         if match and match["unit"]:
-            units[name] = match["unit"].strip()
-        names.append(name)
+            units[names[-1]] = match["unit"].strip()
     doubled = sorted({name for name in names if names.count(name) > 1})
     if doubled:
         raise UserError(str(path), [f'two columns are called "{name}".' for name in doubled])
     frame.columns = pd.Index(names)
-    return frame, units
+    return frame[(frame != "").any(axis=1)], units
 
 
 def _is_numeric(column: pd.Series) -> bool:
@@ -117,24 +119,23 @@ def _number_faults(frame: pd.DataFrame, names: Sequence[str]) -> list[str]:
         numbers = pd.to_numeric(frame[name].str.strip(), errors="coerce").to_numpy(dtype=float)
         bad = np.nonzero(~np.isfinite(numbers))[0]
         if bad.size:
-            text = frame[name].iloc[bad[0]]
+            text, row = frame[name].iloc[bad[0]], frame.index[bad[0]]
             shown = f'"{text}"' if text.strip() else "empty"
             more = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
-            faults.append(f'row {bad[0] + 2}, column "{name}": {shown} is not a finite number{more}.')
+            faults.append(f'row {row}, column "{name}": {shown} is not a finite number{more}.')
     return faults
 
 
-def _record_faults(numbers: dict[str, NDArray], rows: NDArray, name: str, to_fit: bool) -> list[str]:
+def _record_faults(numbers: dict[str, NDArray], rows: NDArray, lines: pd.Index, name: str, to_fit: bool) -> list[str]:
     if rows.size < 2:
         return [f"record {name} has {rows.size} sample; at least 2 are needed."]
     faults = []
-    back = np.nonzero(np.diff(numbers["time"][rows]) <= 0)[0]
+    time = numbers["time"][rows]
+    back = np.nonzero(np.diff(time) <= 0)[0]
     if back.size:
-        row = rows[back[0] + 1]
-        value, before = numbers["time"][row], numbers["time"][rows[back[0]]]
         faults.append(
-            f'row {row + 2}, column "time": {value:g} does not come after {before:g}; '
-            f"time must strictly increase within a record."
+            f'row {lines[back[0] + 1]}, column "time": {time[back[0] + 1]:g} does not come after '
+            f"{time[back[0]]:g}; time must strictly increase within a record."
         )
     if to_fit and np.ptp(numbers["input"][rows]) == 0:
         faults.append(
