@@ -105,6 +105,8 @@ def _table(path: Path) -> tuple[pd.DataFrame, dict[str, str]]:
     if doubled:
         raise UserError(str(path), [f'two columns are called "{name}".' for name in doubled])
     frame.columns = pd.Index(names)
+    if not (frame != "").any(axis=None):
+        raise UserError(str(path), "has a header but no samples.")
     return frame[(frame != "").any(axis=1)], units
 
 

@@ -60,7 +60,7 @@ def load(kind: Kind, name: str) -> Plugin:
         return Plugin(kind, name, distribution, None, f"{type(error).__name__}: {error}")
     contract = CONTRACTS[kind]
     if not (isinstance(loaded, type) and issubclass(loaded, contract)):
-        return Plugin(kind, name, distribution, None, f"{point.value} is not a {contract.__name__}")
+        return Plugin(kind, name, distribution, None, f"{point.value} does not keep the contract {contract.__name__}")
     missing = sorted(getattr(loaded, "__abstractmethods__", ()))
     if missing:
         return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")

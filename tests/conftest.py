@@ -4,22 +4,21 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.contracts import Model
 from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import Problem
-from hysteresis_bench.parameters import Parameter, Space
+from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 
 ROOT = Path(__file__).parents[1]
-FAULTY = ROOT / "tests" / "faulty_plugins"
-sys.path.append(str(FAULTY))  # importlib.metadata finds its entry points there, as of any distribution
+PLUGINS = ROOT / "tests" / "test_plugins"
+sys.path.append(str(PLUGINS))  # importlib.metadata finds its entry points there, as of any distribution
 
 
 @pytest.fixture(scope="session")
@@ -31,16 +30,6 @@ def real_data() -> Path:
     return folder
 
 
-@dataclass(frozen=True)
-class Polynomial(Model):
-    """y = a u + b u^3: no hysteresis, but everything that a meter needs."""
-
-    parameters = (Parameter("a", -2.0, 4.0, "{output}/{input}"), Parameter("b", 0.01, 10.0, scaling="log"))
-
-    def simulate(self, signal, p):
-        return p.a * signal.input + p.b * signal.input**3
-
-
 def record(samples: int = 40, name: str = "sine", a: float = 1.0, b: float = 0.5) -> Record:
     time = np.linspace(0.0, 1.0, samples)
     drive = np.sin(2 * np.pi * time)
@@ -49,5 +38,5 @@ def record(samples: int = 40, name: str = "sine", a: float = 1.0, b: float = 0.5
 
 @pytest.fixture
 def polynomial_problem() -> Problem:
-    system = System(Polynomial())
+    system = System(registry.build("models", "polynomial"))
     return Problem(system, (record(),), Space(system.parameters), LOSSES["rmse"])

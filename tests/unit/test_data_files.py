@@ -51,6 +51,7 @@ def test_time_as_an_index_switches_rate_effects_off(tmp_path):
         ("time,input,output\n0,1,2\n1,2\n", 'row 3, column "output": empty'),
         ("time,input,output\n0,1,2\n1,2,3,4\n", "Expected 3 fields in line 3, saw 4"),
         ("", "cannot be read as CSV"),
+        ("time,input,output\n", "no samples"),
     ],
 )
 def test_faults_name_file_row_and_column(tmp_path, text, told):

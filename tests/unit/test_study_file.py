@@ -1,0 +1,100 @@
+"""Study files: every fault at once, each with its place and the nearest known name."""
+
+import pytest
+
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.study_file import duration, read_study
+
+GOOD = """
+title = "t"
+seed = 1
+[[problem]]
+name = "p"
+model = "polynomial"
+data = ["a.csv"]
+[[optimizer]]
+plugin = "pso"
+"""
+
+
+def read(folder, text):
+    path = folder / "study.toml"
+    path.write_text(text, encoding="utf-8")
+    return read_study(path)[0]
+
+
+def told(folder, text):
+    with pytest.raises(UserError) as error:
+        read(folder, text)
+    return error.value.faults
+
+
+def test_a_good_file_and_its_defaults(tmp_path):
+    study = read(tmp_path, GOOD)
+    assert (study.trials, study.budget, study.timeout, study.reference) == (3, 15050, 600.0, "pso")
+    assert study.labels == ["pso"]
+
+
+@pytest.mark.parametrize(("text", "seconds"), [("10 min", 600), ("90 s", 90), ("1.5h", 5400), (12, 12)])
+def test_times(text, seconds):
+    assert duration(text) == seconds
+
+
+def test_all_faults_of_a_bad_file_at_once(tmp_path):
+    text = """
+title = "t"
+sed = 1
+timeout = "soon"
+[[problem]]
+name = "p"
+model = "polynomal"
+data = ["a.csv"]
+[[problem]]
+name = "q"
+model = "polynomial"
+rig = "smaa"
+data = ["a.csv"]
+bounds = { a = [2.0, 1.5], z = [0, 1] }
+loss = "rsme"
+[[optimizer]]
+plugin = "psoo"
+[[optimizer]]
+plugin = "pso"
+settings = { particels = 10 }
+"""
+    faults = " ".join(told(tmp_path, text))
+    for part in (
+        'no key "sed"',
+        'Did you mean "seed"',
+        "seed: field required",
+        "'soon'",
+        'no model "polynomal"',
+        'Did you mean "polynomial"',
+        "[[problem]] 2: name either a rig",
+        'no rig "smaa"',
+        "a: low 2.0 is above high 1.5",
+        'no parameter "z"',
+        'no loss "rsme"',
+        '[[optimizer]] 1: no optimizer "psoo"',
+        '[[optimizer]] 2: pso has no setting "particels"',
+        'Did you mean "particles"',
+    ):
+        assert part.lower() in faults.lower(), part
+
+
+@pytest.mark.parametrize(
+    ("change", "part"),
+    [
+        (("[[optimizer]]", '[[optimizer]]\nplugin = "pso"\n[[optimizer]]'), 'two [[optimizer]] are both called "pso"'),
+        (('plugin = "pso"', 'plugin = "pso"\nsettings = { particles = "many" }'), "particles = 'many'"),
+        (('plugin = "pso"', 'plugin = "faulty-missing"'), "is broken"),
+        (('plugin = "pso"', 'plugin = "faulty-abstract"'), "Abstract lacks search"),
+        (('plugin = "pso"', 'plugin = "faulty-alien"'), "does not keep the contract Optimizer"),
+        (('data = ["a.csv"]', 'data = ["a.csv"]\neffects = ["bais"]'), 'Did you mean "bias"'),
+        (("seed = 1", "seed = 1\ntrials = 0"), "trials"),
+        (('data = ["a.csv"]', 'rig = "sma"\nfitted = ["pwm-60"]'), 'Did you mean "pwm-60s"'),
+        (("seed = 1", "seed = = 1"), "not valid TOML"),
+    ],
+)
+def test_single_faults(tmp_path, change, part):
+    assert part in " ".join(told(tmp_path, GOOD.replace(*change)))
