@@ -85,11 +85,11 @@ def _value(node: ast.AST, names: Mapping[str, Any]) -> Any:
             for part in parts[1:]:
                 found = _operator(joint)(found, _value(part, names))
             return found
-        case ast.Compare(left=left, ops=signs, comparators=others):
+        case ast.Compare(left=left, ops=relations, comparators=others):
             sides = [_value(side, names) for side in (left, *others)]
             found = True
-            for sign, lower, upper in zip(signs, sides, sides[1:], strict=False):
-                found = np.logical_and(found, _operator(sign)(lower, upper))
+            for relation, lower, upper in zip(relations, sides, sides[1:], strict=False):
+                found = np.logical_and(found, _operator(relation)(lower, upper))
             return found
         case ast.Call(func=ast.Name(id=name), args=arguments, keywords=[]) if name in FUNCTIONS:
             return FUNCTIONS[name](*(_value(argument, names) for argument in arguments))

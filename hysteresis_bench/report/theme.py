@@ -1,0 +1,119 @@
+"""How figures look: one palette with a light and a dark side, and SVG that follows the page it stands in.
+
+A figure is drawn once, in the light colours, and its file on disk keeps them (it can go into a paper). In a
+page every colour becomes a CSS variable, so that the figure follows the reader's light or dark setting.
+Hues after Okabe and Ito (2008), told apart by colour-blind readers.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from html import escape
+from pathlib import Path
+from typing import Any
+
+INK, MUTED, GRID = "#1b2631", "#6b7683", "#dfe3e8"
+SERIES = ("#0072b2", "#d55e00", "#009e73", "#b8559a", "#c98a00", "#3f9fd8")
+
+VARIABLES = {INK: "ink", MUTED: "muted", GRID: "grid"} | {
+    colour: f"series-{number}" for number, colour in enumerate(SERIES, 1)
+}
+"""What each colour is called in templates/style.css, where both sides of the palette stand."""
+
+STYLE: dict[Any, Any] = {
+    "svg.fonttype": "none",
+    "path.simplify_threshold": 0.4,
+    "font.family": "DejaVu Sans",
+    "font.size": 8.5,
+    "axes.titlesize": 9,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.labelsize": 8.5,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.7,
+    "axes.edgecolor": MUTED,
+    "axes.labelcolor": INK,
+    "axes.titlecolor": INK,
+    "axes.facecolor": "none",
+    "figure.facecolor": "none",
+    "text.color": INK,
+    "xtick.color": MUTED,
+    "ytick.color": MUTED,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
+    "xtick.labelsize": 8,
+    "ytick.labelsize": 8,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": GRID,
+    "grid.linewidth": 0.6,
+    "lines.linewidth": 1.4,
+    "lines.solid_capstyle": "round",
+    "legend.frameon": False,
+    "figure.constrained_layout.use": True,
+}
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A figure on disk and in the page. name : of its file; alt : what it shows, for who cannot see it."""
+
+    name: str
+    alt: str
+    caption: str
+    inline: str
+
+
+def picture(
+    folder: Path, name: str, size: tuple[float, float], alt: str, caption: str, draw: Callable[[Any], None]
+) -> Picture:
+    """Draw on a figure of `size` inches, write figures/NAME.svg into the folder, and return both forms."""
+    import matplotlib
+    from matplotlib.figure import Figure
+
+    with matplotlib.rc_context({**STYLE, "svg.hashsalt": name}):
+        figure = Figure(figsize=size)
+        draw(figure)
+        text = io.StringIO()
+        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+    svg = re.sub(r"\s*<metadata>.*?</metadata>", "", text.getvalue(), flags=re.S)
+    (folder / "figures").mkdir(exist_ok=True)
+    (folder / "figures" / f"{name}.svg").write_text(svg, encoding="utf-8")
+    return Picture(name, alt, caption, inline(svg, name, alt))
+
+
+def inline(svg: str, name: str, alt: str) -> str:
+    """A stand-alone SVG -> one that can stand in a page beside others and follows its colours."""
+    body = svg[svg.index("<svg") :]
+    box = re.search(r'viewBox="([^"]+)"', body)
+    assert box is not None
+    width = float(box[1].split()[2])
+    label = escape(alt, quote=True)
+    head = f'<svg viewBox="{box[1]}" role="img" aria-label="{label}" style="max-width: {1.55 * width:.0f}px">'
+    body = head + body[body.index(">") + 1 :]
+    body = re.sub(r'\bid="([^"]+)"', rf'id="{name}.\1"', body)
+    body = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}.\1)", body)
+    body = re.sub(r'xlink:href="#([^"]+)"', rf'href="#{name}.\1"', body)
+    for colour, variable in VARIABLES.items():
+        body = body.replace(colour, f"var(--{variable})")
+    return re.sub(r"font: ([0-9.]+px|bold [0-9.]+px)[^;\"]*", r"font: \1 var(--sans)", body)
+
+
+def spread_labels(positions: Sequence[float], gap: float, low: float = 0.0, high: float = 1.0) -> list[float]:
+    """Positions of labels on an axis, in axes fractions, moved apart to at least `gap` and kept in order."""
+    order = sorted(range(len(positions)), key=lambda i: positions[i])
+    placed = [min(max(positions[i], low), high) for i in order]
+    for k in range(1, len(placed)):
+        placed[k] = max(placed[k], placed[k - 1] + gap)
+    if placed and placed[-1] > high:
+        placed[-1] = high
+        for k in range(len(placed) - 2, -1, -1):
+            placed[k] = min(placed[k], placed[k + 1] - gap)
+    found = [0.0] * len(positions)
+    for index, value in zip(order, placed, strict=True):
+        found[index] = value
+    return found
