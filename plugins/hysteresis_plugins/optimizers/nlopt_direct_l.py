@@ -22,7 +22,9 @@ class NloptDirectL(Optimizer):
     """
 
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:
-        from hysteresis_plugins.optimizers._nlopt import prepared, run
+        from hysteresis_plugins.optimizers._nlopt import Search
 
-        search = prepared("GN_DIRECT_L", objective, rng)
-        run(search, start(1)[:, 0])
+        search = Search("GN_DIRECT_L", objective, rng)
+        # sizes its memory: above what the budget affords, so that the meter stops it
+        search.nlopt.set_maxeval(2 * objective.budget + 1000)
+        search.run(start(1)[:, 0])

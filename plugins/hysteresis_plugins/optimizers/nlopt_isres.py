@@ -30,9 +30,9 @@ class NloptIsres(Optimizer):
         at_least(0, particles=self.particles)
 
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:
-        from hysteresis_plugins.optimizers._nlopt import prepared, run
+        from hysteresis_plugins.optimizers._nlopt import Search
 
-        search = prepared("GN_ISRES", objective, rng)
-        search.set_population(self.particles)
+        search = Search("GN_ISRES", objective, rng)
+        search.nlopt.set_population(self.particles)
         for points in first_points(objective, start, rng):
-            run(search, points[:, 0])
+            search.run(points[:, 0])

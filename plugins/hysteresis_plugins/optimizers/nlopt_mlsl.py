@@ -31,10 +31,10 @@ class NloptMlsl(Optimizer):
         between(1e-14, 0.5, tolerance=self.tolerance)
 
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:
-        from hysteresis_plugins.optimizers._nlopt import prepared, run
+        from hysteresis_plugins.optimizers._nlopt import Search
 
-        search = prepared("GN_MLSL_LDS", objective, rng)
-        descent = prepared("LN_BOBYQA", objective, rng)
-        descent.set_xtol_abs(self.tolerance)
-        search.set_local_optimizer(descent)
-        run(search, start(1)[:, 0])
+        search = Search("GN_MLSL_LDS", objective, rng)
+        descent = Search("LN_BOBYQA", objective, rng)
+        descent.nlopt.set_xtol_abs(self.tolerance)
+        search.nlopt.set_local_optimizer(descent.nlopt)
+        search.run(start(1)[:, 0])

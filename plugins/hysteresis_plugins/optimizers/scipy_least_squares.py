@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.contracts import Objective, Optimizer, Start
@@ -43,6 +44,8 @@ class ScipyLeastSquares(Optimizer):
                 method="trf",
                 ftol=self.tolerance,
                 xtol=self.tolerance,
-                gtol=None,
+                # as small as scipy allows, for it has the residual's unit; but with none at all, a gradient
+                # of exactly 0 makes scipy propose NaN
+                gtol=np.finfo(float).eps,
                 max_nfev=UNLIMITED,
             )
