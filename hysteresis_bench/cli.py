@@ -143,8 +143,7 @@ def fit(
     """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
     from hysteresis_bench import fit as fit_model
     from hysteresis_bench import load
-    from hysteresis_bench.report.console import print_fit
-    from hysteresis_bench.report.fit_page import write_fit
+    from hysteresis_bench.report.fit_folder import print_fit, write_fit
 
     dataset = load(*data, held_out=held_out, skip=skip)
     fitted = fit_model(

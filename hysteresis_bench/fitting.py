@@ -48,6 +48,7 @@ class Fit:
     parameters : one row a parameter: name, value, standard_error, unit, at_bound
     agreement : a sentence on whether two searches with other starts agree
     warnings : sentences on what the model cannot follow, or what the data cannot tell
+    notes : how the fit was made
     """
 
     model: FittedModel
@@ -58,6 +59,7 @@ class Fit:
     agreement: str
     agrees: bool
     warnings: tuple[str, ...]
+    notes: tuple[str, ...]
 
 
 def fit_records(
@@ -100,24 +102,18 @@ def fit_records(
         if gap < CLOSED or repeats >= MOST_REPEATS:
             break
         repeats *= 2
-    warnings = list(system.model.advice(seen.fitted))
-    if gap >= CLOSED:
-        warnings.append(
-            f"After {repeats} passes the simulated loop still moves by {100 * gap:.1f} % of its range a pass: "
-            f"the model does not close this loop."
-        )
-    analysis = analyse(problem, values)
-    fitted = _model(
-        problem,
-        values,
-        analysis.standard_errors,
-        dataset,
-        ready,
-        model,
-        settings=settings or {},
-        preparation=preparation,
-    )
-    return _told(fitted, problem, dataset, ready, analysis, _agreement(problem, found, losses), warnings)
+    try:
+        analysis = analyse(problem, values)
+    except ValueError as error:
+        raise UserError("fit", f"{error}.") from None
+    model_settings = {"settings": settings or {}, "preparation": preparation}
+    fitted = _model(problem, values, analysis.standard_errors, dataset, ready, model, **model_settings)
+    parameters = _parameter_table(problem, fitted)
+    records, responses = _record_tables(system, values, dataset, ready)
+    agrees, agreement = _agreement(problem, found, losses)
+    warnings = (*system.model.advice(seen.fitted), *_closing(gap, repeats), *_edges(parameters), *analysis.sentences())
+    notes = _notes(space, optimizer, budget, seed, repeats if settle else 0)
+    return Fit(fitted, records, responses, parameters, analysis, agreement, agrees, warnings, notes)
 
 
 def _system(
@@ -213,18 +209,39 @@ def _agreement(problem: Problem, found: Sequence[NDArray], losses: Sequence[floa
     return True, f"Two searches from other starts agree (outputs within {100 * apart:.2g} % of the range)."
 
 
-def _told(
-    fitted: FittedModel,
-    problem: Problem,
-    dataset: Dataset,
-    ready: Dataset,
-    analysis: Identifiability,
-    agreement: tuple[bool, str],
-    warnings: Sequence[str],
-) -> Fit:
-    """dataset : as measured; ready : as the model sees it, the same records in the same order."""
-    system, values = problem.system, fitted.values
-    parameters = _parameter_table(problem, fitted)
+def _closing(gap: float, repeats: int) -> list[str]:
+    if gap < CLOSED:
+        return []
+    return [
+        f"After {repeats} passes the simulated loop still moves by {100 * gap:.1f} % of its range a pass: "
+        f"the model does not close this loop."
+    ]
+
+
+def _edges(parameters: pd.DataFrame) -> list[str]:
+    return [
+        f"{row.name} lies at the edge of its box ({row.value:.4g}): the optimum may lie outside, and its standard "
+        f"error means little."
+        for row in parameters[parameters["at_bound"]].itertuples(index=False)
+    ]
+
+
+def _notes(space: Space, optimizer: str, budget: int, seed: int, repeats: int) -> tuple[str, ...]:
+    box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in space.parameters)
+    settled = f" Every loop was passed {repeats} times before it was scored." if repeats else ""
+    return (
+        f"Two searches by {optimizer} from other starts, {budget} evaluations each, seed {seed}, each finished by a "
+        f"local least-squares polish.{settled}",
+        f"Search box: {box}.",
+        "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation; they "
+        "do not know of what the model lacks.",
+    )
+
+
+def _record_tables(
+    system: System, values: NDArray, dataset: Dataset, ready: Dataset
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Errors and responses a record. dataset : as measured; ready : the same records as the model sees them."""
     records, responses = [], []
     for record, seen in zip(dataset.records, ready.records, strict=True):
         named = {"record": record.name, "role": "held-out" if record.name in dataset.held_out_names else "fitted"}
@@ -236,22 +253,7 @@ def _told(
             "simulated": system.respond(seen, values[:, None])[seen.scored, 0],
         }
         responses.append(pd.DataFrame({**named, **columns}))
-    agrees, sentence = agreement
-    edges = [
-        f"{row.name} lies at the edge of its box ({row.value:.4g}): the optimum may lie outside, and its standard "
-        f"error means little."
-        for row in parameters[parameters["at_bound"]].itertuples(index=False)
-    ]
-    return Fit(
-        fitted,
-        pd.DataFrame(records),
-        pd.concat(responses, ignore_index=True),
-        parameters,
-        analysis,
-        sentence,
-        agrees,
-        (*warnings, *edges, *analysis.sentences()),
-    )
+    return pd.DataFrame(records), pd.concat(responses, ignore_index=True)
 
 
 def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
