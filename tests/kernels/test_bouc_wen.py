@@ -1,0 +1,137 @@
+"""The Bouc-Wen kernels against a tight ODE solution, a plain-Python twin and closed forms."""
+
+import math
+
+import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
+
+from hysteresis_bench.kernels.bouc_wen import bouc_wen, bouc_wen_power
+
+PUBLISHED = (0.304225, 0.675313, 0.497724, 1.045814)  # PEA paper, Table 2, G-Pmix
+
+
+def columns(*particles):
+    return [np.array(values, dtype=float) for values in zip(*particles, strict=True)]
+
+
+def sine(samples=6000, amplitude=2.5, cycles=3):
+    return amplitude * np.sin(2 * np.pi * cycles * np.linspace(0, 1, samples))[:, None]
+
+
+def by_ode(u, p, n=1.0, every=1):
+    """[1] eq. (1) solved in u between turning points, with the kink at h = 0 found as an event."""
+    alpha, beta, gamma, d = p
+    turns = np.nonzero(np.diff(np.sign(np.diff(u))))[0] + 1
+    edges = [0, *turns, u.size - 1]
+    h = np.zeros(u.size)
+    for first, last in zip(edges[:-1], edges[1:], strict=True):
+        sign = np.sign(u[last] - u[first])
+        widths = np.abs(u[first : last + 1] - u[first])
+
+        def rate(w, x, sign=sign):
+            return alpha * d * sign - beta * abs(x) ** (n - 1) * x - gamma * sign * abs(x) ** n
+
+        def crossing(w, x):
+            return x[0]
+
+        crossing.terminal = True
+        start, state = 0.0, h[first]
+        while start < widths[-1]:
+            nudged = solve_ivp(
+                rate, (start, widths[-1]), [state], "DOP853", dense_output=True, rtol=1e-12, atol=1e-14,
+                events=crossing if state * sign < 0 else None,
+            )  # fmt: skip
+            inside = (widths > start) & (widths <= nudged.t[-1])
+            h[first : last + 1][inside] = nudged.sol(widths[inside])[0]
+            crossed = nudged.status == 1
+            start, state = nudged.t[-1], 0.0 if crossed else nudged.y[0, -1]
+    return d * u - h
+
+
+def twin(u, alpha, beta, gamma, d):
+    """The closed form, one particle, one sample at a time, in plain Python."""
+    h, out = 0.0, [d * u[0]]
+    for before, now in zip(u[:-1], u[1:], strict=True):
+        width, sign = abs(now - before), math.copysign(1.0, now - before)
+        while width > 0.0:
+            rate = beta + gamma * sign * (math.copysign(1.0, h) if h != 0.0 else math.copysign(1.0, sign * alpha * d))
+            target = alpha * d * sign
+            if h * target < 0.0:  # up to the crossing, then on
+                reach = -h / target if rate == 0.0 else math.log1p(-rate * h / target) / rate
+                if reach < width:
+                    h, width = 0.0, width - reach
+                    continue
+            h += (target - rate * h) * (width if rate == 0.0 else -math.expm1(-rate * width) / rate)
+            width = 0.0
+        out.append(d * now - h)
+    return np.array(out)
+
+
+@pytest.mark.parametrize("amplitude", [2.5, 40.0])
+def test_agrees_with_a_tight_ode_solution(amplitude):
+    u = sine(amplitude=amplitude)
+    reference = by_ode(u[:, 0], PUBLISHED)
+    error = np.abs(bouc_wen(u, *columns(PUBLISHED))[:, 0] - reference).max()
+    assert error < 1e-10 * np.ptp(reference)
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
+def test_other_powers_agree_with_a_tight_ode_solution(n):
+    u = sine(600)
+    reference = by_ode(u[:, 0], PUBLISHED, n)
+    assert np.abs(bouc_wen_power(u, *columns(PUBLISHED), n)[:, 0] - reference).max() < 1e-8 * np.ptp(reference)
+
+
+@pytest.mark.parametrize("samples", [20, 300, 3000])
+def test_agrees_with_its_plain_twin_for_a_swarm_however_coarse_the_samples(samples):
+    rng = np.random.default_rng(1)
+    u = np.cumsum(rng.normal(size=(samples, 1)), axis=0) * 20 / np.sqrt(samples)
+    swarm = 70  # more than one block of lanes
+    alpha, beta, gamma, d = (rng.uniform(low, 3, swarm) for low in (-1, 0.1, -0.1, -1))
+    simulated = bouc_wen(u, alpha, beta, gamma, d)
+    for j in range(0, swarm, 7):
+        expected = twin(u[:, 0], alpha[j], beta[j], gamma[j], d[j])
+        assert np.abs(simulated[:, j] - expected).max() < 1e-11 * np.ptp(expected)
+
+
+def test_one_input_a_particle_equals_a_shared_input():
+    rng = np.random.default_rng(2)
+    inputs = np.cumsum(rng.normal(size=(400, 5)), axis=0)
+    parameters = [rng.uniform(0, 2, 5) for _ in range(4)]
+    together = bouc_wen(inputs, *parameters)
+    for j in range(5):
+        alone = bouc_wen(inputs[:, j : j + 1].copy(), *(values[j : j + 1] for values in parameters))
+        np.testing.assert_allclose(together[:, j], alone[:, 0], rtol=0, atol=1e-11 * np.ptp(alone))
+
+
+def test_saturates_at_the_closed_form_height():
+    alpha, beta, gamma, d = PUBLISHED
+    u = np.linspace(0, 100, 2000)[:, None]
+    h = d * u[-1, 0] - bouc_wen(u, *columns(PUBLISHED))[-1, 0]
+    assert h == pytest.approx(alpha * d / (beta + gamma), rel=1e-12)
+
+
+def test_starts_at_rest_wherever_the_input_starts():
+    v = bouc_wen(sine(100) + 7.0, *columns(PUBLISHED))
+    assert v[0, 0] == PUBLISHED[3] * 7.0
+
+
+@pytest.mark.parametrize("kernel", [bouc_wen, lambda *arguments: bouc_wen_power(*arguments, 2.5)])
+@pytest.mark.parametrize("samples", [12, 500])
+def test_is_finite_whatever_the_signs_and_sizes(kernel, samples):
+    sizes = (-1e4, -5.0, -0.3, 0.0, 1e-12, 0.3, 5.0, 1e4)
+    beta, gamma = (values.ravel() for values in np.meshgrid(sizes, sizes))
+    u = sine(samples, amplitude=10.0)
+    for alpha, d in ((0.3, 1.0), (-2.0, 1.0), (0.3, -1.0), (0.0, 1.0), (0.3, 0.0)):
+        v = kernel(u, np.full_like(beta, alpha), beta, gamma, np.full_like(beta, d))
+        assert np.isfinite(v).all()
+
+
+def test_changes_no_argument():
+    u, parameters = sine(50), columns(PUBLISHED, PUBLISHED)
+    before = [values.copy() for values in (u, *parameters)]
+    bouc_wen(u, *parameters)
+    bouc_wen_power(u, *parameters, 2.0)
+    for values, kept in zip((u, *parameters), before, strict=True):
+        np.testing.assert_array_equal(values, kept)
