@@ -99,9 +99,18 @@ def circuits(space: NDArray) -> list[NDArray]:
 
 
 def tidy(vector: NDArray) -> NDArray:
+    """The vector without tiny entries, scaled to small integers where it has such a multiple."""
+    return _whole(np.where(np.abs(vector) < ZERO * np.abs(vector).max(), 0.0, vector))
+
+
+def listed(words: Sequence[str]) -> str:
+    """a, b and c."""
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def _whole(vector: NDArray) -> NDArray:
     """The vector scaled to small integers where it has such a multiple, else to a largest entry of 1; the first
     entry that is not 0 is positive."""
-    vector = np.where(np.abs(vector) < ZERO * np.abs(vector).max(), 0.0, vector)
     support = vector[vector != 0.0]
     vector = vector * np.sign(support[0])
     for multiple in range(1, 7):
@@ -109,11 +118,6 @@ def tidy(vector: NDArray) -> NDArray:
         if np.max(np.abs(whole)) < 12 and np.max(np.abs(whole - np.round(whole))) < 0.01:
             return np.round(whole)
     return vector / np.max(np.abs(support))
-
-
-def listed(words: Sequence[str]) -> str:
-    """a, b and c."""
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 
 def _connected(vectors: NDArray) -> list[tuple[list[int], NDArray]]:
@@ -132,9 +136,9 @@ def _connected(vectors: NDArray) -> list[tuple[list[int], NDArray]]:
 def _group(names: Sequence[str], values: NDArray, size: NDArray, group: tuple[list[int], NDArray]) -> Blindness:
     members, vectors = group[0], group[1][:, group[0]]
     told = tuple(names[i] for i in members)
-    signed = vectors * np.sign(values[members])  # in logarithms, where a value is not 0
-    products = _across(signed)
-    sums = _across(vectors * size[members])
+    relative = np.where(values[members] < 0.0, -size[members], size[members])
+    products = _across(vectors * np.sign(relative))  # in logarithms, where a value is not 0
+    sums = np.array([_whole(product / relative) for product in products]).reshape(products.shape)
     # near one point a sum can look like a product of odd powers, and the reverse: the plainer one is told
     as_sum = np.any(values[members] == 0.0) or _plainness(sums) < _plainness(products)
     kind: Literal["product", "sum"] = "sum" if as_sum else "product"

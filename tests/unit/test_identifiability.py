@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hysteresis_plugins.models.free_energy import FreeEnergy
 
-from hysteresis_bench.combinations import Combination, sparsest
+from hysteresis_bench.combinations import Combination, blind_groups, sparsest
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.identifiability import analyse, profile
@@ -140,6 +140,14 @@ def test_a_value_at_its_bound_is_no_obstacle():
     found = analyse(problem(Line(), [5.0, -5.0], 0.01), np.array([5.0, -5.0]))
     assert found.rank == 2
     assert np.all(np.isfinite(found.standard_errors))
+
+
+def test_parameters_of_very_different_size_are_told_as_products():
+    values = np.array([1e-3, 7e5, 3.0, 5e-9])
+    exponents = np.array([[1.0, -2.0, 2.0, 0.0], [0.0, 0.0, 1.0, -1.0]])
+    lost = values[:, None] * np.linalg.svd(exponents)[2][2:].T
+    (found,) = blind_groups(("s", "m", "r", "t"), values, lost)
+    assert str(found) == "s, m, r and t act only through r / t and s r^2 / m^2: fix 2, for example s and m."
 
 
 def test_sparsest_basis_of_a_mixed_space():
