@@ -19,9 +19,9 @@ from hysteresis_plugins.optimizers._settings import at_least
 class NloptCrs2(Optimizer):
     """Controlled random search with local mutation (CRS2, nlopt).
 
-    particles : size of the population; 0 leaves it to nlopt, 10 (dimension + 1)
+    particles : size of the population; 0 leaves it to nlopt: 10 (dimension + 1); else above the dimension
 
-    Bounds: a trial point outside is drawn anew, by nlopt. The shared first point is one of the population.
+    Bounds: a trial point outside is put on the wall, by nlopt. The shared first point is one of the population.
     """
 
     particles: int = 0
@@ -32,6 +32,8 @@ class NloptCrs2(Optimizer):
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:
         from hysteresis_plugins.optimizers._nlopt import Search
 
+        if 0 < self.particles <= objective.dimension:
+            raise ValueError(f"particles = {self.particles} must be above the number of parameters.")
         search = Search("GN_CRS2_LM", objective, rng)
         search.nlopt.set_population(self.particles)
         for points in first_points(objective, start, rng):

@@ -18,7 +18,7 @@ class NloptDirectL(Optimizer):
     """Division of the box into rectangles, locally biased (DIRECT-L, nlopt); deterministic.
 
     Bounds: it samples centres of rectangles inside the box. The shared first points do not enter, and a
-    restart would repeat it.
+    restart would repeat it: it divides further until the budget is spent.
     """
 
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:

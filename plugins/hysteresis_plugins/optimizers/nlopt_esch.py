@@ -19,7 +19,7 @@ from hysteresis_plugins.optimizers._settings import at_least
 class NloptEsch(Optimizer):
     """Evolutionary algorithm with Cauchy mutation (ESCH, nlopt).
 
-    particles : size of the population; 0 leaves it to nlopt
+    particles : size of the population; 0 leaves it to nlopt: 40
 
     Bounds: a mutated coordinate outside is drawn anew, by nlopt. The shared first point is one of the population.
     """

@@ -19,7 +19,7 @@ from hysteresis_plugins.optimizers._settings import at_least
 class NloptIsres(Optimizer):
     """Evolution strategy with stochastic ranking (ISRES, nlopt).
 
-    particles : size of the population; 0 leaves it to nlopt, 20 (dimension + 1)
+    particles : size of the population; 0 leaves it to nlopt: 20 (dimension + 1)
 
     Bounds: a mutated coordinate outside is drawn anew, by nlopt. The shared first point is one of the population.
     """
@@ -36,3 +36,6 @@ class NloptIsres(Optimizer):
         search.nlopt.set_population(self.particles)
         for points in first_points(objective, start, rng):
             search.run(points[:, 0])
+
+    def evaluations_per_iteration(self, dimension: int) -> int:
+        return self.particles or 20 * (dimension + 1)

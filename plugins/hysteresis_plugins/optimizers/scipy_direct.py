@@ -24,8 +24,8 @@ class ScipyDirect(Optimizer):
     balance : ε of [1], the smallest relative improvement that a rectangle must promise
 
     Bounds: it samples centres of rectangles inside the box. The shared first points do not enter, and a
-    restart would repeat it: its stops on the size of a rectangle are off, and where its rectangles reach
-    the end of number precision it returns early.
+    restart would repeat it: its stops on the size of a rectangle are off, so that it divides further until
+    the budget is spent.
     """
 
     locally_biased: bool = True
