@@ -1,5 +1,6 @@
 """The Bouc-Wen kernels against a tight ODE solution, a plain-Python twin and closed forms."""
 
+import itertools
 import math
 
 import numpy as np
@@ -25,7 +26,7 @@ def by_ode(u, p, n=1.0, every=1):
     turns = np.nonzero(np.diff(np.sign(np.diff(u))))[0] + 1
     edges = [0, *turns, u.size - 1]
     h = np.zeros(u.size)
-    for first, last in zip(edges[:-1], edges[1:], strict=True):
+    for first, last in itertools.pairwise(edges):
         sign = np.sign(u[last] - u[first])
         widths = np.abs(u[first : last + 1] - u[first])
 
@@ -52,7 +53,7 @@ def by_ode(u, p, n=1.0, every=1):
 def twin(u, alpha, beta, gamma, d):
     """The closed form, one particle, one sample at a time, in plain Python."""
     h, out = 0.0, [d * u[0]]
-    for before, now in zip(u[:-1], u[1:], strict=True):
+    for before, now in itertools.pairwise(u):
         width, sign = abs(now - before), math.copysign(1.0, now - before)
         while width > 0.0:
             rate = beta + gamma * sign * (math.copysign(1.0, h) if h != 0.0 else math.copysign(1.0, sign * alpha * d))

@@ -1,0 +1,100 @@
+"""A second-order stage with unit static gain, y'' + c y' + k y = k u: exact for a piecewise-linear input.
+
+Its state is the deviation from the static response and the velocity, (e, y') with e = y - u. Over a step of
+duration t on which u rises at the slope r, with Phi = exp(t [[0, 1], [-k, -c]]),
+
+    e  -> Phi00 e + Phi01 y' - r (S + c I)
+    y' -> Phi10 e + Phi11 y' + r (1 - Phi00)
+
+where S'' + c S' + k S = 0, S(0) = 0, S'(0) = 1, Phi01 = S, and I is the integral of S.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+SAME_STEP = 1e-9
+"""Steps of the time grid that differ by less than this share count as equal."""
+
+RUNAWAY = 1e9
+"""A deviation is cut at this many times the range of the input: only an unstable stage (c < 0 or k <= 0)
+comes near."""
+
+
+STEEPEST = 200.0
+"""An unstable stage grows by at most e^200 a step, so that nothing overflows."""
+
+
+@njit(cache=True, error_model="numpy")
+def _grown(exponent: float) -> float:
+    return math.exp(min(exponent, STEEPEST))
+
+
+@njit(cache=True, error_model="numpy")
+def transition(damping: float, stiffness: float, duration: float) -> tuple[float, float, float, float, float]:
+    """(Phi00, Phi01, Phi10, Phi11, S + c I) of one step; all 0 for an infinite stiffness, which has no lag.
+
+    damping : c, 1/s;  stiffness : k, 1/s²;  duration : s
+    """
+    if math.isinf(stiffness):
+        return 0.0, 0.0, 0.0, 0.0, 0.0
+    half = 0.5 * damping
+    discriminant = half * half - stiffness
+    if discriminant > 0.0:  # overdamped: two decays, the slower one without cancellation
+        root = math.sqrt(discriminant)
+        slow = _grown(-duration * (stiffness / (half + root) if half > 0.0 else half - root))
+        fast = _grown(-duration * (half + root))
+        sine = slow * -math.expm1(-2.0 * root * duration) / (2.0 * root)
+        cosine = 0.5 * (slow + fast)
+    else:
+        root = math.sqrt(-discriminant)
+        decay = _grown(-duration * half)
+        sine = decay * (math.sin(root * duration) / root if root > 0.0 else duration)
+        cosine = decay * math.cos(root * duration)
+    kept = cosine + half * sine
+    integral = (1.0 - kept) / stiffness if stiffness != 0.0 else 0.5 * duration * duration
+    return kept, sine, -stiffness * sine, cosine - half * sine, sine + damping * integral
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def second_order(time: NDArray, u: NDArray, damping: NDArray, stiffness: NDArray) -> NDArray:
+    """The response of a swarm of stages, from static equilibrium with the first sample.
+
+    time : float64[samples]             strictly increasing, any spacing, s
+    u : float64[samples, 1] or float64[samples, swarm]    input, linear between its samples
+    damping : float64[swarm]            c, 1/s
+    stiffness : float64[swarm]          k = (natural angular frequency)², 1/s²; infinite: y = u to the last bit
+    -> float64[samples, swarm]          y, in the unit of u; finite also for an unstable stage (RUNAWAY)
+    """
+    samples, columns = u.shape
+    swarm = stiffness.size
+    bound = RUNAWAY * (np.max(u) - np.min(u))
+    y = np.empty((samples, swarm))
+    deviation = np.zeros(swarm)
+    velocity = np.zeros(swarm)
+    step = np.empty((5, swarm))
+    known = 0.0
+    for j in range(swarm):
+        y[0, j] = u[0, j if columns > 1 else 0]
+    for i in range(1, samples):
+        duration = time[i] - time[i - 1]
+        if abs(duration - known) > SAME_STEP * known:
+            known = duration
+            for j in range(swarm):
+                step[0, j], step[1, j], step[2, j], step[3, j], step[4, j] = transition(
+                    damping[j], stiffness[j], duration
+                )
+        for j in range(swarm):
+            now = u[i, j] if columns > 1 else u[i, 0]
+            before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
+            slope = (now - before) / duration
+            e = step[0, j] * deviation[j] + step[1, j] * velocity[j] - step[4, j] * slope
+            v = step[2, j] * deviation[j] + step[3, j] * velocity[j] + (1.0 - step[0, j]) * slope
+            deviation[j] = min(max(e, -bound), bound)
+            velocity[j] = min(max(v, -bound / duration), bound / duration)
+            y[i, j] = now + deviation[j]
+    return y
