@@ -27,7 +27,7 @@ def results_beside(published: Published, problems: list[Problem]) -> Table:
     header = ["Optimizer", "Quantity", "Published", "May be compared"]
     for problem in problems:
         header += [f"Ours, {problem.name}: best", "median"]
-    return Table("Published results beside ours", header, rows, note=published.because)
+    return Table("Published results beside ours", header, rows)
 
 
 def _results(published: Published, problems: list[Problem]) -> Iterator[list[str | Cell]]:

@@ -30,8 +30,7 @@ def judge(published: Published, problems: list[Problem]) -> list[Judged]:
     for problem in problems:
         able = [claim for claim in published.claim if {claim.better, claim.worse} <= set(problem.labels)]
         samples = [
-            tuple(problem.values(label, claim.metric, paired=True) for label in (claim.better, claim.worse))
-            for claim in able
+            tuple(problem.compared(label, claim.metric) for label in (claim.better, claim.worse)) for claim in able
         ]
         enough = len(problem.trials) >= stats.ENOUGH
         p = stats.holm([stats.wilcoxon(*pair) for pair in samples]) if enough and able else [None] * len(able)

@@ -72,7 +72,7 @@ def convergence(folder: Path, name: str, problem: Problem, looks: Mapping[str, L
     alt = f"Best fitness against evaluations on {problem.name}; lowest at the end first: {ranked}."
     caption = f"{problem.name}. Best fitness so far against evaluations, both logarithmic. Line: median over "
     caption += f"{trials} trials; band: quartiles. Failed trials count as infinitely bad."
-    return picture(folder, name, (5.2, 3.3), alt, caption, draw)
+    return picture(folder, name, (4.6, 3.1), alt, caption, draw)
 
 
 def _finite(values: Sequence[float]) -> NDArray:
@@ -92,18 +92,16 @@ def _limit(axes: Any, curves: list[NDArray], counts: NDArray) -> None:
 def _label_ends(axes: Any, ends: Mapping[str, float], looks: Mapping[str, Look]) -> None:
     low, high = np.log(axes.get_ylim())
     finite = {label: value for label, value in ends.items() if np.isfinite(value) and value > 0}
-    heights = spread_labels([(np.log(value) - low) / (high - low) for value in finite.values()], 0.065)
-    for (label, value), height in zip(finite.items(), heights, strict=True):
-        axes.annotate(
-            label,
-            xy=(1.0, (np.log(value) - low) / (high - low)),
-            xytext=(1.04, height),
-            xycoords="axes fraction",
-            textcoords="axes fraction",
-            color=looks[label].colour,
-            va="center",
-            arrowprops={"arrowstyle": "-", "color": looks[label].colour, "linewidth": 0.6, "shrinkA": 1, "shrinkB": 0},
-        )
+    places = [(np.log(value) - low) / (high - low) for value in finite.values()]
+    _labels(axes, list(finite), places, looks)
+
+
+def _labels(axes: Any, labels: Sequence[str], places: Sequence[float], looks: Mapping[str, Look]) -> None:
+    """Names at the right end of their curves, moved apart, each with a thin line to its curve."""
+    for label, place, height in zip(labels, places, spread_labels(places, 0.065), strict=True):
+        colour = looks[label].colour
+        axes.plot([1.005, 1.035], [place, height], color=colour, linewidth=0.7, transform=axes.transAxes, clip_on=False)
+        axes.text(1.045, height, label, color=colour, va="center", transform=axes.transAxes)
 
 
 def all_trials(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]) -> Picture:
@@ -143,13 +141,13 @@ def all_trials(folder: Path, name: str, problem: Problem, looks: Mapping[str, Lo
     alt = f"All trials on {problem.name}. Best median first: {', '.join(ratios)}."
     caption = f"{problem.name}. Final fitness of every trial over the best known to the study. Dot: a trial; bar: "
     caption += "quartiles; tick: median; dotted: 1 % above the best known, where success begins."
-    return picture(folder, name, (5.2, 0.9 + 0.185 * len(ratios)), alt, caption, draw)
+    return picture(folder, name, (4.6, 0.9 + 0.185 * len(ratios)), alt, caption, draw)
 
 
 def _plain_ticks(axes: Any, top: float) -> None:
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-    subs = (1.0, 2.0, 5.0) if top < 200 else (1.0,)
+    subs = (1.0, 1.5, 2.0, 3.0, 5.0, 7.0) if top < 8 else (1.0, 2.0, 5.0) if top < 200 else (1.0,)
     axes.xaxis.set_major_locator(LogLocator(subs=subs, numticks=12))
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -174,9 +172,7 @@ def runtime(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]
         for label in shown:
             look = looks[label]
             axes.step(counts, curves[label], color=look.colour, linestyle=look.dash, where="post", zorder=3)
-        heights = spread_labels([float(curves[label][-1]) / 1.02 for label in shown], 0.065)
-        for label, height in zip(shown, heights, strict=True):
-            axes.text(1.03, height, label, color=looks[label].colour, va="center", transform=axes.transAxes)
+        _labels(axes, shown, [float(curves[label][-1]) / 1.02 for label in shown], looks)
         axes.set(
             xscale="log", xlim=(1, budget), ylim=(0, 1.02), xlabel="Evaluations", ylabel="Share of targets reached"
         )
@@ -187,4 +183,4 @@ def runtime(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]
     )
     caption += f"{EXCESSES.size} targets from 100 times above the best known fitness down to 1 % above it. Grey: the "
     caption += "optimizers without a colour."
-    return picture(folder, name, (5.2, 3.3), alt, caption, draw)
+    return picture(folder, name, (4.6, 3.1), alt, caption, draw)

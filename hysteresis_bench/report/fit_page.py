@@ -41,7 +41,7 @@ def write_fit_page(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame
         "fit.html.j2",
         title=fit["title"],
         kicker=_kicker(fit),
-        answer=[_grade(fit["records"]), fit.get("agreement") or "", _left_out(responses)],
+        answer=list(filter(None, [_grade(fit["records"]), fit.get("agreement"), _left_out(responses)])),
         warnings=[*fit.get("warnings", ()), *_bound_warnings(fit["parameters"])],
         parameters=_parameters(fit["parameters"]),
         errors=_errors(fit["records"], fit.get("units", {})),

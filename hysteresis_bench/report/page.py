@@ -11,13 +11,16 @@ from importlib.resources import files
 from typing import Any
 
 NONE = "–"
-NUMBER = re.compile(r"–|failed|not reached|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to|of) [^a-z]*)?")
+NUMBER = re.compile(r"–|failed|not reached|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to|of) .*)?")
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A table cell with a tone: "good", "bad", "quiet" or "code"; `strong` where it is the one to look at."""
+    """A table cell; `strong` where it is the one to look at.
+
+    tone : classes of the style sheet: good, bad, quiet; code, prose (wide), line (never broken)
+    """
 
     text: str
     tone: str = ""
@@ -59,6 +62,8 @@ def number(value: Any, digits: int = 4, never: str = "failed") -> str:
         text = f"{value:.{digits}g}"
         return text if "e" not in text else whole(value)
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
+    if "." in mantissa:
+        mantissa = mantissa.rstrip("0").rstrip(".")
     return f"{mantissa}×10{str(int(exponent)).translate(SUPERSCRIPTS)}"
 
 
@@ -83,6 +88,11 @@ def probability(p: Any) -> str:
     if not _given(p):
         return NONE
     return "< 0.001" if float(p) < 0.001 else f"{float(p):.3f}"
+
+
+def share(value: Any) -> str:
+    """An A12 with two decimals."""
+    return f"{float(value):.2f}" if _given(value) else NONE
 
 
 def seconds(value: Any) -> str:

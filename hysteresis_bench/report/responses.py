@@ -66,7 +66,7 @@ def errors(
         axes.set(xlabel=named("Time", units, "time"), ylabel="Error (% of largest output)")
         axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=3, borderaxespad=0, handlelength=1.4)
 
-    return picture(folder, name, (5.2, 2.8), f"Error over time. {caption}", caption, draw)
+    return picture(folder, name, (4.6, 2.7), f"Error over time. {caption}", caption, draw)
 
 
 def relative_error(rows: pd.DataFrame) -> np.ndarray:

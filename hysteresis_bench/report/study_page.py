@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from hysteresis_bench import stats
 from hysteresis_bench.report import beside, claims, tables, words
 from hysteresis_bench.report.audit import Finding, audit
 from hysteresis_bench.report.figures import FLOOR, Look, all_trials, choose, convergence, runtime
-from hysteresis_bench.report.page import Table, listed, render, whole
+from hysteresis_bench.report.page import Cell, Table, listed, render, whole
 from hysteresis_bench.report.published import Published, check_published
 from hysteresis_bench.report.responses import drive, errors, loop
 from hysteresis_bench.report.summary import Problem, at_iterations, problems, summarise
@@ -56,7 +57,8 @@ DEFINITIONS = (
     (
         "Tests",
         "Friedman over all optimizers with the trials as blocks; then Wilcoxon signed-rank on pairs of trials that "
-        "share their first points (zero differences after Pratt), corrected after Holm within a problem. Below "
+        "share their first points (zero differences after Pratt), corrected after Holm within a problem. Fitness "
+        "within 0.01 % of the best known counts as the best known. Below "
         f"{stats.ENOUGH} trials no p-value is given.",
     ),
     (
@@ -75,12 +77,16 @@ def study_page(results: Results, folder: Path) -> str:
     findings = audit(published)
     looks = choose(here, results.study.reference, published.optimizers)
     budget = max((results.study.budget_of(spec) for spec in results.study.optimizer), default=results.study.budget)
+    drawn = [(i, problem) for i, problem in enumerate(here, 1) if math.isfinite(problem.best_known)]
     count = published.iterations
     iterations = at_iterations(results, count) if count else pd.DataFrame()
     decisions = Table(
         "Decisions",
         ["Where", "Left open", "Decided"],
-        [[decision.where, decision.open, decision.decided] for decision in published.decision],
+        [
+            [decision.where, Cell(decision.open, "prose"), Cell(decision.decided, "prose")]
+            for decision in published.decision
+        ],
     )
     context: dict[str, Any] = {
         "title": results.study.title,
@@ -102,9 +108,9 @@ def study_page(results: Results, folder: Path) -> str:
         "iterations": [tables.iterations(iterations, problem, count) for problem in here] if count else [],
         "held_out": [tables.held_out(problem, summary) for problem in here],
         "chosen": chosen(looks, results.study.reference, published),
-        "trials": [all_trials(folder, f"trials-{i}", problem, looks) for i, problem in enumerate(here, 1)],
-        "convergence": [convergence(folder, f"convergence-{i}", p, looks, budget) for i, p in enumerate(here, 1)],
-        "runtime": [runtime(folder, f"runtime-{i}", p, looks, budget) for i, p in enumerate(here, 1)],
+        "trials": [all_trials(folder, f"trials-{i}", problem, looks) for i, problem in drawn],
+        "convergence": [convergence(folder, f"convergence-{i}", p, looks, budget) for i, p in drawn],
+        "runtime": [runtime(folder, f"runtime-{i}", p, looks, budget) for i, p in drawn],
         **signals(results, here, published, looks, folder),
         "audit": tables.audit(findings) if findings else None,
         "audited": audited(findings),

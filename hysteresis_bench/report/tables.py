@@ -7,7 +7,7 @@ import pandas as pd
 from hysteresis_bench import stats
 from hysteresis_bench.report.audit import Finding
 from hysteresis_bench.report.claims import FAILS, HOLDS, Judged
-from hysteresis_bench.report.page import NONE, Cell, Table, number, percent, probability, seconds, whole
+from hysteresis_bench.report.page import NONE, Cell, Table, number, percent, probability, seconds, share, whole
 from hysteresis_bench.report.summary import Problem
 from hysteresis_bench.study.results import Results
 
@@ -45,7 +45,7 @@ def optimizers(problem: Problem, summary: pd.DataFrame) -> Table:
 def _compared(row: pd.Series, name: str) -> list[str | Cell]:
     verdict = row[f"verdict_{name}"]
     tone = "good" if verdict.startswith("better") else "bad" if verdict.startswith("worse") else "quiet"
-    return [Cell(verdict, tone), probability(row[f"p_{name}"]), number(row[f"a12_{name}"], 2)]
+    return [Cell(verdict, f"{tone} line"), probability(row[f"p_{name}"]), share(row[f"a12_{name}"])]
 
 
 def _friedman(problem: Problem) -> str:
@@ -107,7 +107,7 @@ def claims(judged: list[Judged]) -> Table:
                 Cell(found.why, "quiet"),
                 *medians,
                 probability(found.p),
-                number(found.a12, 2),
+                share(found.a12),
             ]
         )
     header = ["The paper says", "Where", "Problem", "Here", "Why", "Median of the better", "Median of the other"]
@@ -116,7 +116,7 @@ def claims(judged: list[Judged]) -> Table:
 
 def _metric(metric: str, value: float) -> str:
     if metric in ("relative_rms", "max_error"):
-        return percent(value)
+        return percent(value, 4)
     return whole(value) if metric == "evaluations_to_success" else number(value)
 
 
@@ -141,27 +141,27 @@ def audit(findings: list[Finding]) -> Table:
     for found in findings:
         entry = found.entry
         drawn = f" (box sampled on a {entry.scaling} scale)" if entry.sample else ""
+        arithmetic = f"{entry.arithmetic}{drawn} = {_gives(found)}" if entry.arithmetic else NONE
         rows.append(
             [
                 entry.where,
                 entry.printed,
-                entry.says,
+                Cell(entry.says, "prose"),
                 Cell(entry.kind, strong=True),
-                Cell(entry.arithmetic + drawn, "code") if entry.arithmetic else NONE,
-                _gives(found),
+                Cell(arithmetic, "code") if entry.arithmetic else NONE,
                 _checked(found),
             ]
         )
-    header = ["Where", "Printed", "What follows", "Kind", "Arithmetic", "Gives", "Checked"]
+    header = ["Where", "Printed", "What follows", "Kind", "Arithmetic", "Checked"]
     return Table("Statements about the paper, each checked by its arithmetic", header, rows)
 
 
-def _gives(found: Finding) -> Cell:
+def _gives(found: Finding) -> str:
     if found.fault:
-        return Cell(found.fault, "bad")
+        return found.fault
     if isinstance(found.value, bool):
-        return Cell("true" if found.value else "false")
-    return Cell(number(found.value))
+        return "true" if found.value else "false"
+    return number(found.value)
 
 
 def _checked(found: Finding) -> Cell:

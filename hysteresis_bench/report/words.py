@@ -9,7 +9,7 @@ import pandas as pd
 
 from hysteresis_bench import stats
 from hysteresis_bench.report.claims import FAILS, HOLDS, Judged
-from hysteresis_bench.report.page import listed, number, percent, probability
+from hysteresis_bench.report.page import listed, number, percent, probability, share
 from hysteresis_bench.report.summary import Problem
 
 
@@ -66,10 +66,9 @@ def claim_in_words(judged: list[Judged], says: str) -> str:
     for found in (found for found in judged if found.claim.says == says):
         numbers = ""
         if found.verdict in (HOLDS, FAILS):
-            numbers = (
-                f" (p {probability(found.p)}, A12 {number(found.a12, 2)}, {stats.magnitude(found.a12 or 0.5)} effect)"
-            )
-            numbers = numbers.replace("p <", "p <").replace("p 0", "p = 0")
+            p = probability(found.p)
+            effect = stats.magnitude(found.a12 or 0.0)
+            numbers = f" (p {p if p.startswith('<') else f'= {p}'}, A12 = {share(found.a12)}, {effect} effect)"
         elif found.why:
             numbers = f" ({found.why})"
         parts.append(f"on “{found.problem}” {_here(found.verdict)}{numbers}")

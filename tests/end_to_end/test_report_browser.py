@@ -1,0 +1,58 @@
+"""A report in a real browser: it renders, fits a phone, and asks the network for nothing."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+from hysteresis_bench.report import write_report
+from tests.synthetic_study import write_results
+
+BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)
+needs_browser = pytest.mark.skipif(BROWSER is None, reason="no chromium or chrome on this machine")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory):
+    return write_report(write_results(tmp_path_factory.mktemp("report"), trials=14))
+
+
+def browse(page, profile, *options):
+    command = [BROWSER, "--headless", "--no-sandbox", "--disable-gpu", f"--user-data-dir={profile}", *options]
+    done = subprocess.run([*command, page.as_uri()], capture_output=True, text=True, timeout=90)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@needs_browser
+def test_every_section_and_figure_renders(page, tmp_path):
+    dom = browse(page, tmp_path, "--dump-dom")
+    for section in ("answer", "run", "published", "claims", "optimizers", "searches", "signals", "audit", "decisions"):
+        assert f'id="{section}"' in dom
+    assert dom.count("<svg") == dom.count("<figure>") > 10
+    assert not re.search(r"(src|href|srcset)=\"(https?:)?//", dom)
+
+
+@needs_browser
+@pytest.mark.parametrize("width", [380, 768, 1280])
+def test_the_page_never_scrolls_sideways(page, tmp_path, width):
+    # a frame has the width that it is given, where a headless window has a least one
+    frame = tmp_path / "frame.html"
+    frame.write_text(
+        f'<iframe id="f" src="{page.as_uri()}" style="width:{width}px;height:900px;border:0"></iframe>'
+        "<script>onload=()=>{const d=document.getElementById('f').contentDocument.documentElement;"
+        "document.body.dataset.wide=d.scrollWidth;document.body.dataset.client=d.clientWidth}</script>",
+        encoding="utf-8",
+    )
+    dom = browse(frame, tmp_path / "profile", "--dump-dom", "--allow-file-access-from-files")
+    wide, client = (int(re.search(rf'data-{name}="(\d+)"', dom)[1]) for name in ("wide", "client"))
+    assert 0 < client <= width
+    assert wide <= client
+
+
+@needs_browser
+def test_a_picture_of_it_is_not_blank(page, tmp_path):
+    picture = tmp_path / "page.png"
+    browse(page, tmp_path, f"--screenshot={picture}", "--window-size=1200,2000")
+    assert picture.stat().st_size > 50_000
