@@ -24,7 +24,7 @@ class PymooCmaes(Optimizer):
     particles : size of the first population
     spread : first standard deviation, as a share of a parameter's range
 
-    Bounds: the library's penalised transformation into the box. When it has converged it restarts from a
+    Bounds: the library's smooth transformation into the box. When it has converged it restarts from a
     uniform random point with twice the population [2].
     """
 
