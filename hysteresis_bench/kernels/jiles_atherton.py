@@ -52,8 +52,7 @@ def first_anhysteretic(H: float, alpha: float, a: float, M_s: float, c: float) -
     Ma = math.copysign(M_s, H) if H != 0.0 else 0.0
     for _ in range(100):
         x = (H + alpha * c * Ma) / a
-        numerator, denominator = langevin_ratio(x)
-        ratio = numerator / denominator
+        ratio = langevin_ratio(x)
         steepness = c * M_s * alpha / a * (1.0 - x * ratio * x * ratio - 2.0 * ratio)
         change = (Ma - M_s * x * ratio) / max(1.0 - steepness, 1.0 - STEEPEST)
         Ma -= change
@@ -75,17 +74,13 @@ def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
         """
         M_ahead = M_ + ahead * rise_M
         x = (H + alpha * M_ahead) * inverse_a
-        numerator, denominator = langevin_ratio(x)
+        ratio = langevin_ratio(x)
 
         kappa = k - alpha * (delta * D_ + 0.5 * delta * ahead * rise_D)  # the denominator of (5), times delta
         if clamped:
             kappa = max(kappa, 0.0)  # ours: past the pole of (5) Mi jumps to Ma
         u = kappa + h
-        w = kappa * kappa + u * u
-        inverse = 1.0 / (denominator * w)
-        ratio = numerator * w * inverse
-        w = h * denominator * inverse
-
+        w = h / (kappa * kappa + u * u)
         L = x * ratio
         Ma = M_s * L
         Ma_slope = pull * (1.0 - L * L - 2.0 * ratio)  # dMa/dM
@@ -100,9 +95,9 @@ def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
         M_found = Mi + c * (Ma - Mi)  # (11)
         steepness = (c + (1.0 - c) * Mi_slope) * Ma_slope  # dM_found/dM_ahead
         correction = Ma_slope * (M_found - M_ahead) / (1.0 - min(steepness, STEEPEST))
-        correction = min(max(correction, -M_s - Ma), M_s - Ma)
-        Mi += Mi_slope * correction
-        D_ = Ma + correction - Mi
+        Ma_found = min(max(Ma + correction, -M_s), M_s)
+        Mi += Mi_slope * (Ma_found - Ma)
+        D_ = Ma_found - Mi
         return Mi, D_, Mi + c * D_
 
     @njit(cache=True, error_model="numpy", fastmath={"contract"})

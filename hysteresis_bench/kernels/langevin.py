@@ -26,15 +26,14 @@ Q1, Q2, Q3, Q4, Q5 = (
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def langevin_ratio(x: float) -> tuple[float, float]:
-    """L(x)/x as numerator and denominator, so that a caller can share the division; 1/3 at 0.
+def langevin_ratio(x: float) -> float:
+    """L(x)/x, even and positive; 1/3 at 0. Relative error below 7e-10 for every x.
 
-    Relative error below 7e-10 for every x. With r = L(x)/x the function is x r, its slope
-    1 - (x r)^2 - 2 r.
+    With r = L(x)/x the function is x r and its slope 1 - (x r)^2 - 2 r.
     """
     z = x * x
     size = abs(x)
     numerator = P0 + z * (P1 + z * (P2 + z * (P3 + z * P4)))
     denominator = 1.0 + z * (Q1 + z * (Q2 + z * (Q3 + z * (Q4 + z * Q5))))
     tail = size > TAIL
-    return (size - 1.0 if tail else numerator), (z if tail else denominator)
+    return (size - 1.0 if tail else numerator) / (z if tail else denominator)

@@ -1,0 +1,20 @@
+"""Jiles-Atherton with the usual correction on reversal."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from hysteresis_plugins.models.jiles_atherton import JilesAtherton
+
+
+@dataclass(frozen=True)
+class JilesAthertonClamped(JilesAtherton):
+    """Jiles-Atherton hysteresis with M_irr held on reversal until M_an has come back to it.
+
+    dM_irr/dH = 0 while (M_an - M_irr) delta < 0. Ours: past the pole of (5), where
+    alpha (M_an - M_irr) delta > k, M_irr jumps to M_an. Otherwise as `jiles-atherton`. Where c <= 1 a
+    closed loop dissipates.
+    """
+
+    clamped: ClassVar[bool] = True
