@@ -118,7 +118,6 @@ class GmaRig(Rig):
     def displacement(self, time: NDArray, current: NDArray) -> NDArray:
         """What the rod's end does, um, without sensor noise; time in s, evenly spaced, current in A."""
         from hysteresis_bench.kernels.second_order import second_order
-
         from hysteresis_plugins.rigs._gma_rod import diffused, uniform
 
         surface = PRINTED["turns"] * current + self.bias_field
