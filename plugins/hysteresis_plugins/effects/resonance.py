@@ -1,0 +1,65 @@
+"""Resonance: the output passes a mass, a spring and a damper."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+
+
+@dataclass(frozen=True)
+class Resonance(Effect):
+    """A second-order lag of the output with unit static gain, which can resonate.
+
+    y'' + 2 damping omega y' + omega² y = omega² x, omega = 2 pi / period, exact for an output x that is linear
+    between its samples, from static equilibrium with the first one.
+
+    The period switches the effect, rather than the frequency: its null 0 is reached continuously, as the
+    lag vanishes with it.
+    """
+
+    parameters = (
+        Parameter("period", 0.0, 0.1, unit="s", null=0.0, meaning="of the undamped oscillation: 1 / natural frequency"),
+        Parameter("damping", 0.02, 2.0, scaling="log", meaning="damping ratio, 1 is critical"),
+    )
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.second_order import second_order
+
+        output = inner(signal)
+        if not signal.timed:
+            return output
+        with np.errstate(divide="ignore"):
+            omega = 2.0 * np.pi / p.period
+        return second_order(signal.time, output, 2.0 * p.damping * omega, omega**2)
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Periods up to twice the one in which the fastest record runs through its range: a slower stage
+        would not have let it through."""
+        period, damping = self.parameters
+        return period.within(0.0, 2.0 * fastest_period(records)), damping
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        if not all(record.timed for record in records):
+            return "the time of these records is only an index"
+        if all(float(np.ptp(record.input)) == 0.0 for record in records):
+            return "the input never moves"
+        return ""
+
+
+def fastest_period(records: Sequence[Record]) -> float:
+    """Shortest mean period of the records, s: twice the span over the mean speed of the input, which of a
+    sine is its period."""
+    periods = []
+    for record in records:
+        path = float(np.sum(np.abs(np.diff(record.input))))
+        duration = float(record.time[-1] - record.time[0])
+        periods.append(2.0 * float(np.ptp(record.input)) / path * duration if path > 0.0 else duration)
+    return min(periods)
