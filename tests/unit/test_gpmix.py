@@ -127,7 +127,7 @@ def test_both_stop_at_the_accuracy():
 def test_gpmix_closes_in_on_the_published_parameters():
     objective = spent(Gpmix(), 60_000, 10)
     assert objective.best < 1e-3
-    np.testing.assert_allclose(objective.trace.points[-1], PUBLISHED, rtol=0.05)
+    np.testing.assert_allclose(objective.trace.points[-1], PUBLISHED, rtol=0.1)
 
 
 def test_bad_settings_are_refused():
