@@ -70,7 +70,7 @@ class JilesAtherton(Model):
         if np.sum((u - u.mean()) * (y - y.mean())) < 0.0:
             found.append("The output falls while the input rises; Jiles-Atherton only rises. Use --flip.")
         low, span = u.min(), np.ptp(u)
-        if abs(low + span / 2) > OFF_CENTRE * span and self._saturates(u, y):
+        if span > 0.0 and abs(low + span / 2) > OFF_CENTRE * span and self._saturates(u, y):
             found.append(
                 f"The output levels off at both ends, but the input's centre {low + span / 2:.4g} is far from 0, "
                 "where Jiles-Atherton has its own centre. Use --input-offset."

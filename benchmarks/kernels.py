@@ -1,0 +1,178 @@
+"""How fast the kernels are: against scalar loops, and in a whole trial against other libraries.
+
+python benchmarks/kernels.py [--rounds N] [--no-trials]
+
+CPU time of this thread, medians of interleaved rounds: other load on the machine moves the absolute
+numbers; trust the ratios.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+from hysteresis_plugins.models.jiles_atherton import JilesAtherton
+from hysteresis_plugins.models.jiles_atherton_clamped import JilesAthertonClamped
+from hysteresis_plugins.optimizers.pso import Pso
+from numba import njit
+from numpy.typing import NDArray
+from peers import TRIALS
+from rich.console import Console
+from rich.table import Table
+
+from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Model
+from hysteresis_bench.loss import LOSSES
+from hysteresis_bench.objective import BudgetSpent, Objective, Problem
+from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import Record, Signal
+
+SAMPLES, PARTICLES, ITERATIONS = 6000, 50, 300
+
+
+def jiles_atherton_loop(H, alpha, a, k, M_s, c, clamped):  # type: ignore[no-untyped-def]
+    """One particle, a loop over the samples with tanh and branches, as it is usually written -> B.
+
+    The same equations by the usual explicit Euler step, M of the sample before in H_eff.
+    """
+    B = np.empty(H.size)
+    M = Mi = 0.0
+    for i in range(H.size):
+        x = (H[i] + alpha * M) / a
+        Ma = M_s * (1.0 / math.tanh(x) - 1.0 / x) if abs(x) > 1e-3 else M_s * x / 3.0
+        dH = H[i] - H[i - 1] if i > 0 else 0.0
+        if dH != 0.0:
+            delta = 1.0 if dH > 0.0 else -1.0
+            if not (clamped and (Ma - Mi) * delta < 0.0):
+                Mi += dH * (Ma - Mi) / (k * delta - alpha * (Ma - Mi))
+        M = c * Ma + (1.0 - c) * Mi
+        B[i] = 4e-7 * math.pi * (H[i] + M)
+    return B
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A kernel to time.
+
+    loop : (input, *parameters of one particle) -> output, plain Python that numba can compile
+    truth : where the swarm is scattered, half a decade or so around
+    drive : (samples,) input
+    """
+
+    name: str
+    model: Model
+    loop: Callable[..., NDArray]
+    truth: Mapping[str, float]
+    drive: NDArray
+
+
+CYCLES = 60.0 * np.sin(2 * np.pi * 3 * np.linspace(0.0, 1.0, SAMPLES))
+SOFT = {"alpha": 1e-6, "a": 6.0, "k": 10.0, "M_s": 2.5e6, "c": 0.2}
+ENTRIES = (
+    Entry("jiles-atherton", JilesAtherton(), partial(jiles_atherton_loop, clamped=False), SOFT, CYCLES),
+    Entry("jiles-atherton-clamped", JilesAthertonClamped(), partial(jiles_atherton_loop, clamped=True), SOFT, CYCLES),
+)
+
+
+def compiled(loop: Callable[..., NDArray]) -> Callable[..., NDArray]:
+    """A partial of a plain-Python loop, compiled, with its keywords bound."""
+    function, keywords = (loop.func, loop.keywords) if isinstance(loop, partial) else (loop, {})
+    return partial(njit(error_model="numpy")(function), **keywords)
+
+
+def interleaved(variants: Mapping[str, Callable[[], Any]], rounds: int) -> dict[str, float]:
+    """Median CPU seconds of this thread, each variant once a round."""
+    taken: dict[str, list[float]] = {name: [] for name in variants}
+    for turn in range(rounds + 1):
+        for name, call in variants.items():
+            start = time.thread_time()
+            call()
+            if turn > 0:  # the first round compiles
+                taken[name].append(time.thread_time() - start)
+    return {name: float(np.median(seconds)) for name, seconds in taken.items()}
+
+
+def kernel_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
+    """(variant, ns a particle-sample)."""
+    values = np.array(list(entry.truth.values()))[:, None]
+    swarm = values * np.exp(np.random.default_rng(0).normal(0.0, 0.5, (values.size, PARTICLES)))
+    system = System(entry.model)
+    signal = Signal(np.arange(SAMPLES, dtype=float), entry.drive[:, None])
+    own = signal.with_input(np.repeat(entry.drive[:, None], PARTICLES, axis=1))
+    one = np.ascontiguousarray(swarm[:, :1])
+    fast = compiled(entry.loop)
+    short = entry.drive[:500]
+    variants: dict[str, tuple[Callable[[], Any], int]] = {
+        f"swarm of {PARTICLES}": (lambda: system.simulate(signal, swarm), PARTICLES * SAMPLES),
+        f"swarm of {PARTICLES}, an input each": (lambda: system.simulate(own, swarm), PARTICLES * SAMPLES),
+        "swarm of 1": (lambda: system.simulate(signal, one), SAMPLES),
+        "compiled scalar loop (Euler)": (lambda: fast(entry.drive, *one[:, 0]), SAMPLES),
+        "plain Python loop (Euler)": (lambda: entry.loop(short, *one[:, 0]), short.size),
+    }
+    seconds = interleaved({name: call for name, (call, _) in variants.items()}, rounds)
+    return [(name, 1e9 * seconds[name] / size) for name, (_, size) in variants.items()]
+
+
+def trial_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
+    """(who, seconds) of a whole trial of 50 particles, first swarm + 300 iterations."""
+    truth = np.array(list(entry.truth.values()))
+    fast = compiled(entry.loop)
+    measured = System(entry.model).simulate(
+        Signal(np.arange(SAMPLES, dtype=float), entry.drive[:, None]), truth[:, None]
+    )
+    measured = measured[:, 0] + 0.01 * np.random.default_rng(1).normal(0.0, np.ptp(measured), SAMPLES)
+    record = Record(np.arange(SAMPLES, dtype=float), entry.drive, measured)
+    box = [p.within(entry.truth[p.name] / 5, entry.truth[p.name] * 5, "log") for p in entry.model.parameters]
+    problem = Problem(System(entry.model), (record,), Space(tuple(box)), LOSSES["rmse"])
+
+    def ours() -> None:
+        objective = Objective(problem, PARTICLES * (ITERATIONS + 1))
+        first = np.random.default_rng(2).random((truth.size, PARTICLES))
+        try:
+            Pso(particles=PARTICLES).search(objective, lambda particles: first[:, :particles], np.random.default_rng(3))
+        except BudgetSpent:
+            return
+
+    def loss(point: NDArray) -> float:
+        values = problem.space.from_unit(point[:, None])[:, 0]
+        error = fast(entry.drive, *values) - measured
+        with np.errstate(over="ignore", invalid="ignore"):
+            return float(np.nan_to_num(math.sqrt(error @ error / SAMPLES), nan=1e9, posinf=1e9))
+
+    seconds = interleaved({"pso on the swarm kernel": ours}, rounds)
+    theirs = {name: partial(trial, loss, truth.size, PARTICLES, ITERATIONS + 1) for name, trial in TRIALS.items()}
+    return [*seconds.items(), *interleaved(theirs, 1).items()]
+
+
+def shown(title: str, unit: str, rows: list[tuple[str, float]]) -> Table:
+    table = Table(title=title, title_justify="left")
+    table.add_column("")
+    table.add_column(unit, justify="right")
+    table.add_column("ratio", justify="right")
+    for name, value in rows:
+        table.add_row(name, f"{value:.3g}", f"{value / rows[0][1]:.1f}")
+    return table
+
+
+def main() -> None:
+    arguments = argparse.ArgumentParser(description=(__doc__ or "").split("\n\n")[0])
+    arguments.add_argument("--rounds", type=int, default=7)
+    arguments.add_argument("--no-trials", action="store_true", help="only the kernels")
+    asked = arguments.parse_args()
+    console = Console()
+    for entry in ENTRIES:
+        rows = kernel_rows(entry, asked.rounds)
+        console.print(shown(f"{entry.name}, {SAMPLES} samples", "ns a particle-sample", rows))
+        if not asked.no_trials:
+            title = f"{entry.name}: a trial of {PARTICLES} x {ITERATIONS} on {SAMPLES} samples"
+            console.print(shown(title, "CPU s", trial_rows(entry, 3)))
+
+
+if __name__ == "__main__":
+    main()
