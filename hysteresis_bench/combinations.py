@@ -109,7 +109,7 @@ def listed(words: Sequence[str]) -> str:
 
 
 def _whole(vector: NDArray) -> NDArray:
-    """The vector scaled to small integers where it has such a multiple, else to a largest entry of 1; the first
+    """The vector scaled to small integers where it has such a multiple, else to a median entry of 1; the first
     entry that is not 0 is positive."""
     support = vector[vector != 0.0]
     vector = vector * np.sign(support[0])
@@ -117,7 +117,7 @@ def _whole(vector: NDArray) -> NDArray:
         whole = vector * multiple / np.min(np.abs(support))
         if np.max(np.abs(whole)) < 12 and np.max(np.abs(whole - np.round(whole))) < 0.01:
             return np.round(whole)
-    return vector / np.max(np.abs(support))
+    return vector / np.sort(np.abs(support))[support.size // 2]
 
 
 def _connected(vectors: NDArray) -> list[tuple[list[int], NDArray]]:

@@ -193,7 +193,8 @@ def _jacobian(problem: Problem, values: NDArray, scale: NDArray) -> tuple[NDArra
     lower = np.array([parameter.lower for parameter in problem.space.parameters])
     upper = np.array([parameter.upper for parameter in problem.space.parameters])
     # a value at its bound is moved inside by the two steps that the differences need
-    centre = np.clip(values, lower + 2 * steps, upper - 2 * steps)
+    inside = (lower <= values) & (values <= upper)
+    centre = np.where(inside, np.clip(values, lower + 2 * steps, upper - 2 * steps), values)
     shifts = np.diag(steps)
     moved = [centre[:, None] + factor * shifts for factor in (1.0, -1.0, 2.0, -2.0)]
     swarm = outputs(problem, np.hstack([values[:, None], *moved]))

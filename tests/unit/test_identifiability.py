@@ -128,6 +128,26 @@ def test_free_energy_has_five_combinations_of_six(noise):
     )
 
 
+def test_a_field_that_never_switches_is_told():
+    # every relay's coercive field is beyond the field: only the slope of the kernels acts
+    values = np.array([1.0, 20.0, 1.0, 0.4, 0.1, 5.0])
+    found = analyse(problem(FreeEnergy(), values, 0.01, input_=0.05 * np.sin(8 * np.pi * TIME)), values)
+    assert found.rank == 1
+    assert str(found.blind[0]) == "M_R does not act on these data at all."
+    # b c exp(c^2) at c = 0.1 is locally b c^1.02
+    assert "act only through eta / (H_c b c^1.02 alpha)" in str(found.blind[1])
+
+
+def test_values_outside_the_box_are_analysed_where_they_are():
+    values = np.array([2.0, 0.5, 1.3, 3.0, 1.0, 0.2])
+    posed = problem(Tied(), values, 0.01)
+    narrow = tuple(q.within(3.0, 4.0) if q.name == "a" else q for q in posed.space.parameters)
+    outside = Problem(posed.system, posed.records, Space(narrow), posed.loss)
+    np.testing.assert_allclose(
+        analyse(outside, values).singular_values, analyse(posed, values).singular_values, rtol=1e-6, atol=1e-6
+    )
+
+
 def test_noise_hides_a_direction_that_the_output_sees():
     posed = problem(Line(), [1e-3, 0.0], noise=1e5)
     found = analyse(posed, np.array([1e-3, 0.0]))
