@@ -174,8 +174,10 @@ def _fixable(vectors: NDArray) -> list[int]:
 
 
 def _power(name: str, exponent: float) -> str:
-    return name if exponent == 1.0 else f"{name}^{exponent:.3g}"
+    told = f"{exponent:.3g}"
+    return name if told == "1" else f"{name}^{told}"
 
 
 def _factor(weight: float) -> str:
-    return "" if weight == 1.0 else f"{weight:.3g} "
+    told = f"{weight:.3g}"
+    return "" if told == "1" else f"{told} "
