@@ -10,7 +10,7 @@ Between two samples (5) reads dMi/dH = D / (k delta - alpha D). Ours: with kappa
 taken at the extrapolated middle of the step, and Ma a straight line in H over the step, it is linear;
 its exponential is replaced by exp(-s) = 1 / (1 + s + s^2/2), s = h / kappa, which gives
 
-    dMi = h ((kappa + u) D + u dMa) / (kappa^2 + u^2),    u = kappa + h.
+    dMi = h (kappa D + u (Ma' - Mi)) / (kappa^2 + u^2),    u = kappa + h,  Ma' at the step's end.
 
 Second order; L-stable: Mi follows Ma without ringing however far h exceeds k; and without a pole, so
 that it stays finite where (5) does not. M is implicit through H_eff = H + alpha M: extrapolated from
@@ -87,10 +87,10 @@ def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
         Mi_slope = w * u  # dMi/dMa
         if clamped:
             D_from = delta * max(delta * D_, 0.0)  # while behind, Mi waits until Ma has come back to it
-            change = delta * max(delta * (w * (kappa + u) * D_from + Mi_slope * (Ma - Mi - D_from)), 0.0)
+            change = delta * max(delta * (w * (kappa * D_from + u * (Ma - Mi))), 0.0)
             Mi_slope = Mi_slope if change != 0.0 else 0.0
         else:
-            change = w * (kappa + u) * D_ + Mi_slope * (Ma - Mi - D_)
+            change = w * (kappa * D_ + u * (Ma - Mi))
         Mi += change
         M_found = Mi + c * (Ma - Mi)  # (11)
         steepness = (c + (1.0 - c) * Mi_slope) * Ma_slope  # dM_found/dM_ahead
