@@ -283,7 +283,7 @@ def _model(
         units=units,
         parameters={
             parameter.name: Estimate(
-                float(value), float(error) if np.isfinite(error) else None, parameter.unit.format(**units)
+                float(value), float(error) if np.isfinite(error) else None, parameter.unit_in(units)
             )
             for parameter, value, error in zip(problem.space.parameters, values, errors, strict=True)
         },

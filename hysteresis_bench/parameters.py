@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Literal
@@ -34,6 +35,10 @@ class Parameter:
     def within(self, lower: float, upper: float, scaling: Scaling | None = None) -> Parameter:
         """The same parameter in another box."""
         return replace(self, lower=float(lower), upper=float(upper), scaling=scaling or self.scaling)
+
+    def unit_in(self, units: Mapping[str, str]) -> str:
+        """The unit with those of the data put in; a quantity without a unit goes by its own name."""
+        return self.unit.format(**{name: name if unit == "1" else unit for name, unit in units.items()})
 
     def faults(self) -> list[str]:
         """What is wrong with the box, a sentence each; empty when nothing is."""

@@ -57,9 +57,10 @@ def print_fit(fit: Fit, console: Console) -> None:
         parameters.add_row(row.name, f"{row.value:.6g}", error, row.unit + mark, style="yellow" if mark else "")
     console.print(parameters)
     unit = fit.model.units["output"]
+    rmse = "RMSE" if unit == "1" else f"RMSE [{unit}]"
     errors = Table(title="errors", title_justify="left", box=None, title_style="bold")
     errors.add_column("record")
-    for heading in (f"RMSE [{unit}]", "relative RMS", "largest error"):
+    for heading in (rmse, "relative RMS", "largest error"):
         errors.add_column(heading, justify="right")
     errors.add_column("")
     for row in fit.records.itertuples(index=False):
