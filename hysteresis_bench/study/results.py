@@ -18,6 +18,7 @@ from hysteresis_bench.study.study_file import Study, check_study
 
 STUDY, PUBLISHED, PROVENANCE = "study.toml", "published.toml", "provenance.json"
 TRIALS, SUMMARY, RESPONSES, REPORT = "trials.csv", "summary.csv", "responses.csv", "report.html"
+IDENTIFIABILITY = "identifiability.json"
 
 STATUSES = ("done", "finished-early", "raised", "timed-out", "crashed", "out-of-memory")
 FINISHED = ("done", "finished-early")
@@ -35,6 +36,8 @@ class Results:
     traces : (problem, optimizer, trial) -> best-so-far trace, of trials that have a result
     responses : problem, optimizer, record, role (fitted or held-out), time, input, output, simulated;
         for the best trial of every optimizer on every problem
+    identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
+        of all trials, or its "fault"
     """
 
     folder: Path
@@ -44,6 +47,7 @@ class Results:
     trials: pd.DataFrame
     traces: Mapping[tuple[str, str, int], Trace]
     responses: pd.DataFrame
+    identifiability: Mapping[str, Any]
 
 
 def read_results(folder: Path) -> Results:
@@ -59,8 +63,13 @@ def read_results(folder: Path) -> Results:
         folder,
         study,
         tomllib.loads(published.read_text(encoding="utf-8")) if published.is_file() else {},
-        json.loads((folder / PROVENANCE).read_text(encoding="utf-8")),
+        _json(folder / PROVENANCE),
         trials,
         traces,
         pd.read_csv(responses) if responses.is_file() else pd.DataFrame(),
+        _json(folder / IDENTIFIABILITY),
     )
+
+
+def _json(path: Path) -> Any:
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}

@@ -15,15 +15,13 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import pandas as pd
-
 from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.identify import seed_of
+from hysteresis_bench.study.afterwards import identifiability, responses
 from hysteresis_bench.study.pool import run_tickets
-from hysteresis_bench.study.problems import Built, build_problem
-from hysteresis_bench.study.results import FINISHED, PROVENANCE, PUBLISHED, RESPONSES, STUDY, TRIALS
+from hysteresis_bench.study.problems import build_problem
+from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STUDY, TRIALS
 from hysteresis_bench.study.store import Outcome, Store
 from hysteresis_bench.study.study_file import Study, check_study, read_study
 from hysteresis_bench.study.trial import Ticket, run_trial, seed_key
@@ -66,7 +64,9 @@ def run_study(
             _run_missing(store, study, path, trials or study.trials, jobs or os.cpu_count() or 1, tell)
             table = store.table()
     table.to_csv(folder / TRIALS, index=False)
-    _responses(table, built).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
+    responses(table, built).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
+    told = json.dumps(identifiability(study, table, built), indent=1, allow_nan=False)
+    (folder / IDENTIFIABILITY).write_text(told + "\n", encoding="utf-8")
     return folder
 
 
@@ -176,36 +176,6 @@ def _processor() -> str:
     except OSError:
         return platform.processor()
     return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown")
-
-
-def _responses(trials: pd.DataFrame, built: dict[str, Built]) -> pd.DataFrame:
-    """What the best trial of every optimizer answers on every record of every problem."""
-    parts = []
-    finished = trials[trials["status"].isin(FINISHED)]
-    for (problem, optimizer), rows in finished.groupby(["problem", "optimizer"], sort=False):
-        if problem not in built:
-            continue
-        best = rows.loc[rows["fitness"].idxmin()]
-        system, dataset = built[problem].problem.system, built[problem].dataset
-        names = [f"parameter.{name}" for name in built[problem].problem.space.names]
-        values = best[names].to_numpy(dtype=float)[:, None]
-        for record in dataset.records:
-            simulated = system.respond(record, values)[record.scored, 0]
-            parts.append(
-                pd.DataFrame(
-                    {
-                        "problem": problem,
-                        "optimizer": optimizer,
-                        "record": record.name,
-                        "role": "held-out" if record.name in dataset.held_out_names else "fitted",
-                        "time": record.time[record.scored],
-                        "input": record.input[record.scored],
-                        "output": record.measured,
-                        "simulated": np.asarray(simulated),
-                    }
-                )
-            )
-    return pd.concat(parts) if parts else pd.DataFrame()
 
 
 @contextmanager

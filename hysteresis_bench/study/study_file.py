@@ -48,6 +48,7 @@ class ProblemSpec(_Strict):
     fitted, held_out : experiments of the rig, or names of records (of the data: all where none is named)
     bounds : replaces the model's own box, parameter by parameter; "data" derives the rest from the data
     fixed : parameters that are known: not searched
+    profile : parameters whose profile likelihood the report shows
     """
 
     name: str
@@ -64,6 +65,7 @@ class ProblemSpec(_Strict):
     box: Literal["model", "data"] = "model"
     bounds: dict[str, tuple[float, float]] = {}
     fixed: dict[str, float] = {}
+    profile: list[str] = []
     skip: Annotated[float, BeforeValidator(duration)] | None = None
     settle: bool = False
 
@@ -192,9 +194,9 @@ def _bound_faults(spec: dict[str, Any]) -> list[str]:
     model = registry.build("models", spec["model"], spec.get("settings", {}))
     parameters = {parameter.name: parameter for parameter in model.parameters}
     found = []
-    for key in ("bounds", "fixed"):
+    for key in ("bounds", "fixed", "profile"):
         values = spec.get(key, {})
-        for name in values if isinstance(values, dict) else ():
+        for name in values if isinstance(values, (dict, list)) else ():
             if name not in parameters and "." not in name:
                 found.append(f'{key}: {spec["model"]} has no parameter "{name}". {nearest(name, parameters)}')
     for name, pair in spec.get("bounds", {}).items():
