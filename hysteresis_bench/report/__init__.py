@@ -19,7 +19,8 @@ def write_report(folder: Path) -> Path:
     from hysteresis_bench.report.study_page import study_page
 
     results = read_results(folder)
-    summarise(results).to_csv(folder / SUMMARY, index=False)
+    summary = summarise(results)
+    summary.to_csv(folder / SUMMARY, index=False)
     page = folder / REPORT
-    page.write_text(study_page(results, folder), encoding="utf-8")
+    page.write_text(study_page(results, summary, folder), encoding="utf-8")
     return page

@@ -18,7 +18,7 @@ SHOWN = 6
 """Optimizers that get a colour; more lines than this cannot be told apart."""
 
 FLOOR = "random-search"
-EXCESSES = np.geomspace(0.01, 100.0, 25)
+EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
 
 
@@ -181,6 +181,6 @@ def runtime(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]
     caption = (
         f"{problem.name}. Runtime distribution: share of (trial, target) pairs reached after so many evaluations; "
     )
-    caption += f"{EXCESSES.size} targets from 100 times above the best known fitness down to 1 % above it. Grey: the "
+    caption += f"{EXCESSES.size} targets from 10 times above the best known fitness down to 1 % above it. Grey: the "
     caption += "optimizers without a colour."
     return picture(folder, name, (4.6, 3.1), alt, caption, draw)

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, cached_property
 from importlib.resources import files
 from typing import Any
 
@@ -36,11 +36,11 @@ class Table:
     rows: Sequence[Sequence[str | Cell]]
     note: str = ""
 
-    @property
+    @cached_property
     def cells(self) -> list[list[Cell]]:
         return [[cell if isinstance(cell, Cell) else Cell(cell) for cell in row] for row in self.rows]
 
-    @property
+    @cached_property
     def numeric(self) -> list[bool]:
         """Which columns hold nothing but numbers."""
         columns = zip(*self.cells, strict=True) if self.rows else ((Cell("a"),) for _ in self.header)

@@ -16,7 +16,7 @@ from hysteresis_bench.report.figures import FLOOR, Look, all_trials, choose, con
 from hysteresis_bench.report.page import Cell, Table, listed, render, whole
 from hysteresis_bench.report.published import Published, check_published
 from hysteresis_bench.report.responses import drive, errors, loop
-from hysteresis_bench.report.summary import Problem, at_iterations, problems, summarise
+from hysteresis_bench.report.summary import Problem, at_iterations, problems
 from hysteresis_bench.report.theme import Picture
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS, Results
 
@@ -69,10 +69,10 @@ DEFINITIONS = (
 )
 
 
-def study_page(results: Results, folder: Path) -> str:
-    """The whole page; its figures are written to the folder."""
+def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
+    """The whole page; its figures are written to the folder. summary : of summarise(results)"""
     published = check_published(results.published)
-    summary, here = summarise(results), problems(results)
+    here = problems(results)
     judged = claims.judge(published, here)
     findings = audit(published)
     looks = choose(here, results.study.reference, published.optimizers)

@@ -84,11 +84,14 @@ class Problem:
 
     @cached_property
     def ranked(self) -> list[str]:
-        """Labels by median fitness, then by median evaluations to a success, then by name."""
+        """Labels by median fitness as the tests take it, then by mean rank, evaluations to a success, name."""
+        mean_ranks = dict(zip(self.labels, self.friedman.mean_ranks, strict=True))
+        floor = EQUAL * self.best_known
         return sorted(
             self.labels,
             key=lambda label: (
-                stats.quantile(self.values(label, "fitness"), 0.5),
+                max(stats.quantile(self.values(label, "fitness"), 0.5), floor),
+                mean_ranks[label],
                 stats.quantile(self.values(label, "evaluations_to_success"), 0.5),
                 label,
             ),

@@ -7,7 +7,7 @@ import pandas as pd
 from hysteresis_bench import stats
 from hysteresis_bench.report.audit import Finding
 from hysteresis_bench.report.claims import FAILS, HOLDS, Judged
-from hysteresis_bench.report.page import NONE, Cell, Table, number, percent, probability, seconds, share, whole
+from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, percent, probability, seconds, share, whole
 from hysteresis_bench.report.summary import Problem
 from hysteresis_bench.study.results import Results
 
@@ -62,18 +62,26 @@ def _friedman(problem: Problem) -> str:
 
 
 def iterations(frame: pd.DataFrame, problem: Problem, count: int) -> Table:
-    """Every optimizer after the paper's number of iterations."""
+    """Every optimizer that has iterations, after the paper's number of them."""
+    here = frame[frame["problem"] == problem.name]
+    without = here["evaluations_per_iteration"].isna()
     rows: list[list[str | Cell]] = []
-    for _, row in frame[frame["problem"] == problem.name].iterrows():
-        if row["note"]:
-            numbers: list[str | Cell] = [NONE, NONE, Cell(row["note"], "quiet")]
-        else:
-            spread = f"{number(row['fitness_q1'], 3)} to {number(row['fitness_q3'], 3)}"
-            numbers = [number(row["fitness_best"]), number(row["fitness_median"]), spread]
-        each, spent = row["evaluations_per_iteration"], row["evaluations"]
-        rows.append([row["optimizer"], whole(each), whole(spent), *numbers])
+    for _, row in here[~without].iterrows():
+        spread = f"{number(row['fitness_q1'], 3)} to {number(row['fitness_q3'], 3)}"
+        rows.append(
+            [
+                row["optimizer"],
+                whole(row["evaluations_per_iteration"]),
+                whole(row["evaluations"]),
+                number(row["fitness_best"]),
+                number(row["fitness_median"]),
+                Cell(row["note"], "quiet") if row["note"] else spread,
+            ]
+        )
     header = ["Optimizer", "Evaluations an iteration", "Evaluations", "Best", "Median", "Quartiles"]
-    return Table(f"{problem.name}: fitness after the first swarm and {count} iterations", header, rows)
+    others = listed(list(here[without]["optimizer"]), len(here))
+    note = f"Without iterations in this sense: {others}." if without.any() else ""
+    return Table(f"{problem.name}: fitness after the first swarm and {count} iterations", header, rows, note)
 
 
 def held_out(problem: Problem, summary: pd.DataFrame) -> Table:

@@ -71,7 +71,8 @@ def claim_in_words(judged: list[Judged], says: str) -> str:
             numbers = f" (p {p if p.startswith('<') else f'= {p}'}, A12 = {share(found.a12)}, {effect} effect)"
         elif found.why:
             numbers = f" ({found.why})"
-        parts.append(f"on “{found.problem}” {_here(found.verdict)}{numbers}")
+        told = found.why if found.why == stats.SAME else f"{_here(found.verdict)}{numbers}"
+        parts.append(f"on “{found.problem}” {told}")
     return f"The paper says: {says}. Here, {listed(parts)}."
 
 
