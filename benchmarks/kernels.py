@@ -17,9 +17,6 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from hysteresis_plugins.models.jiles_atherton import JilesAtherton
-from hysteresis_plugins.models.jiles_atherton_clamped import JilesAthertonClamped
-from hysteresis_plugins.optimizers.pso import Pso
 from numba import njit
 from numpy.typing import NDArray
 from peers import TRIALS
@@ -32,6 +29,9 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import BudgetSpent, Objective, Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models.jiles_atherton import JilesAtherton
+from hysteresis_plugins.models.jiles_atherton_clamped import JilesAthertonClamped
+from hysteresis_plugins.optimizers.pso import Pso
 
 SAMPLES, PARTICLES, ITERATIONS = 6000, 50, 300
 

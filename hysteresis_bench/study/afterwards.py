@@ -44,7 +44,7 @@ def identifiability(study: Study, trials: pd.DataFrame, built: Mapping[str, Buil
     An absent number (a parameter that the data cannot tell) is None.
     """
     profiled = {spec.name: spec.profile for spec in study.problem}
-    told = {}
+    told: dict[str, Any] = {}
     for problem, _, best in _best(trials, built, by_optimizer=False):
         of = built[problem].problem
         values = polish(of, best)

@@ -6,12 +6,12 @@ import math
 
 import numpy as np
 import pytest
-from hysteresis_plugins.models.free_energy import FreeEnergy
 from scipy.special import erf
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.kernels.free_energy import error_function, magnetization, quadrature
 from hysteresis_bench.signals import Signal
+from hysteresis_plugins.models.free_energy import FreeEnergy
 
 FIELD = 4.0 * np.sin(np.linspace(0.0, 16.0 * np.pi, 600)) * np.linspace(1.0, 0.3, 600)
 VALUES = {"M_R": 1.0, "eta": 40.0, "H_c": 1.0, "b": 0.6, "c": 0.25, "alpha": 1.3}

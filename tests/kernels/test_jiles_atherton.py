@@ -7,13 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hysteresis_plugins.models.jiles_atherton import JilesAtherton
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from hysteresis_bench.kernels.jiles_atherton import MU0, jiles_atherton
 from hysteresis_bench.kernels.langevin import langevin_ratio
 from hysteresis_bench.parameters import Space
+from hysteresis_plugins.models.jiles_atherton import JilesAtherton
 
 WELL_POSED = (
     (1e-6, 6.0, 10.0, 2.5e6, 0.2),

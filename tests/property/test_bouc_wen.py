@@ -6,9 +6,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from hysteresis_plugins.effects.resonance import Resonance
-from hysteresis_plugins.models.bouc_wen import BoucWen
-from hysteresis_plugins.models.hammerstein import Hammerstein
 from scipy.optimize import least_squares
 
 from hysteresis_bench.compose import System
@@ -16,6 +13,9 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import Objective, Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects.resonance import Resonance
+from hysteresis_plugins.models.bouc_wen import BoucWen
+from hysteresis_plugins.models.hammerstein import Hammerstein
 
 PUBLISHED = np.array([0.304225, 0.675313, 0.497724, 1.045814])  # PEA paper, Table 2, G-Pmix
 LINEAR = np.array([267_700.0, 510.1069, 255_700.0])  # PEA paper, Table 3, G-Pmix

@@ -7,10 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from hysteresis_plugins.models.jiles_atherton import JilesAtherton
-from hysteresis_plugins.models.jiles_atherton_clamped import JilesAthertonClamped
 
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models.jiles_atherton import JilesAtherton
+from hysteresis_plugins.models.jiles_atherton_clamped import JilesAthertonClamped
 
 
 def decades(lower: float, upper: float) -> st.SearchStrategy[float]:

@@ -4,9 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hysteresis_plugins.models.free_energy import FreeEnergy
-from hysteresis_plugins.models.free_energy_gma import REDUCED, FreeEnergyGma
-from hysteresis_plugins.rigs.gma import GmaRig
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.identifiability import analyse
@@ -15,6 +12,9 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
+from hysteresis_plugins.models.free_energy import FreeEnergy
+from hysteresis_plugins.models.free_energy_gma import REDUCED, FreeEnergyGma
+from hysteresis_plugins.rigs.gma import GmaRig
 
 NAMES = tuple(q.name for q in FreeEnergyGma.parameters)
 VALUES = np.array([1e-3, 7.65e5, 4.7e5, 1.3, 2.4e3, 3.7e4, 0.5, 2e-9])

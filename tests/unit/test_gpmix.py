@@ -2,16 +2,16 @@
 
 import numpy as np
 import pytest
-from hysteresis_plugins.models.bouc_wen import BoucWen
-from hysteresis_plugins.optimizers._swarm import Swarm
-from hysteresis_plugins.optimizers.ga import Ga, exchanged, mutated
-from hysteresis_plugins.optimizers.gpmix import Gpmix
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import BudgetSpent, Objective, Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models.bouc_wen import BoucWen
+from hysteresis_plugins.optimizers._swarm import Swarm
+from hysteresis_plugins.optimizers.ga import Ga, exchanged, mutated
+from hysteresis_plugins.optimizers.gpmix import Gpmix
 
 PUBLISHED = np.array([0.304225, 0.675313, 0.497724, 1.045814])  # PEA paper, Table 2
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hysteresis_plugins.optimizers.icpso import DEAD, Icpso, alive
 
 from hysteresis_bench.objective import BudgetSpent
+from hysteresis_plugins.optimizers.icpso import DEAD, Icpso, alive
 
 
 class Sphere:

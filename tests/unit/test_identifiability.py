@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import pytest
-from hysteresis_plugins.models.free_energy import FreeEnergy
 
 from hysteresis_bench.combinations import Combination, blind_groups, sparsest
 from hysteresis_bench.compose import System
@@ -16,6 +15,7 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record
+from hysteresis_plugins.models.free_energy import FreeEnergy
 
 TIME = np.linspace(0.0, 1.0, 400)
 

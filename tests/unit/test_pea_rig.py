@@ -4,14 +4,14 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hysteresis_plugins.models.bouc_wen import BoucWen
-from hysteresis_plugins.rigs.pea import PLAYS, PeaRig
 from scipy.optimize import least_squares
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import Objective, Problem
 from hysteresis_bench.parameters import Space
+from hysteresis_plugins.models.bouc_wen import BoucWen
+from hysteresis_plugins.rigs.pea import PLAYS, PeaRig
 
 OFF = {"saturation": 0.0, "asymmetry": 0.0, "creep": 0.0, "bandwidth": 0.0, "natural_frequency": 0.0}
 SILENT = {"noise": 0.0, "resolution": 0.0}

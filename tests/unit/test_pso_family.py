@@ -9,12 +9,12 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hysteresis_plugins.optimizers.mpso import Mpso
-from hysteresis_plugins.optimizers.pso import Pso
-from hysteresis_plugins.optimizers.pso_constriction import PsoConstriction
 
 from hysteresis_bench import registry
 from hysteresis_bench.objective import BudgetSpent
+from hysteresis_plugins.optimizers.mpso import Mpso
+from hysteresis_plugins.optimizers.pso import Pso
+from hysteresis_plugins.optimizers.pso_constriction import PsoConstriction
 
 TARGET = np.array([0.31, 0.02, 0.55, 0.97, 0.64])
 

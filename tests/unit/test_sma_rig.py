@@ -6,10 +6,11 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from hysteresis_plugins.rigs.sma import SUPPLY, SmaRig
 from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import cumulative_simpson
 from scipy.linalg import expm
+
+from hysteresis_plugins.rigs.sma import SUPPLY, SmaRig
 
 PULSE = (np.arange(0.0, 80.0, 0.1), np.where(np.arange(800) < 400, SUPPLY, 0.0))
 RAMP = np.arange(0.0, 3600.0, 1.0)
