@@ -77,6 +77,12 @@ def low_pass(time: NDArray, u: NDArray, constant: float) -> NDArray:
     decays = np.exp(-steps / constant)
     out = np.empty(u.size)
     out[0] = lag = float(u[0])
+    if np.ptp(steps) < 1e-6 * steps[0]:
+        from scipy.signal import lfilter
+
+        gains = u[1:] - slopes + (slopes - u[:-1]) * decays[0]
+        out[1:], _ = lfilter([1.0], [1.0, -decays[0]], gains, zi=[decays[0] * lag])
+        return out
     values = u.tolist()
     for i, (slope, decay) in enumerate(zip(slopes.tolist(), decays.tolist(), strict=True)):
         lag = values[i + 1] - slope + (lag - values[i] + slope) * decay
