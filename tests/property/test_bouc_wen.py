@@ -175,3 +175,19 @@ def test_boxes_of_the_linear_stage_hold_the_published_one():
         assert boxes[name].lower < value < boxes[name].upper
     period = Resonance().box((data,))[0]
     assert period.upper == pytest.approx(0.04, rel=0.01)
+
+
+def test_the_published_linear_stage_is_recovered_from_a_noise_free_sweep():
+    time = np.arange(5000) * 1e-3
+    u = 2.5 * np.sin(2 * np.pi * (0.1 * time + 49.9 * time**2 / 10))  # 0.1 to 50 Hz
+    system = System(Hammerstein())
+    y = system.simulate(Signal(time, u[:, None]), np.array([*PUBLISHED, *LINEAR])[:, None])[:, 0]
+    data = Record(time, u, y)
+    space = Space(Hammerstein().box((data,))[4:])
+
+    def residuals(point):
+        stage = space.from_unit(point[:, None])[:, 0]
+        return system.simulate(data.signal, np.array([*PUBLISHED, *stage])[:, None])[:, 0] - y
+
+    found = least_squares(residuals, np.full(3, 0.5), bounds=(0, 1), xtol=1e-14, ftol=1e-14, gtol=1e-14)
+    np.testing.assert_allclose(space.from_unit(found.x[:, None])[:, 0], LINEAR, rtol=1e-6)
