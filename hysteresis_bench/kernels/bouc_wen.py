@@ -35,29 +35,29 @@ LANES = 64
 """Particles that are integrated side by side."""
 
 # Rows of one work array: constant offsets tell the compiler that they do not overlap.
-G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, DIRECTION = (row * LANES for row in range(10))
-ROWS = 10
+G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, DIRECTION, RISING = (row * LANES for row in range(11))
+ROWS = 11
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
-def _path(u: NDArray) -> tuple[float, float]:
-    """Length of one input's path, and its largest increment; u : float64[samples]."""
-    length = 0.0
-    largest = 0.0
-    for i in range(1, u.size):
-        width = abs(u[i] - u[i - 1])
-        length += width
-        largest = max(largest, width)
-    return length, largest
-
-
-@njit(cache=True, error_model="numpy")
 def _paths(u: NDArray) -> tuple[NDArray, NDArray]:
     """Of every column of u, float64[samples, columns]: the path's length and the largest increment."""
-    length = np.empty(u.shape[1])
-    largest = np.empty(u.shape[1])
-    for column in range(u.shape[1]):
-        length[column], largest[column] = _path(np.ascontiguousarray(u[:, column]))
+    samples, columns = u.shape
+    length = np.zeros(columns)
+    largest = np.zeros(columns)
+    if columns == 1:  # scalars, so that the loop over the samples is vectorised instead
+        shared, total, most = u[:, 0].copy(), 0.0, 0.0
+        for i in range(1, samples):
+            width = abs(shared[i] - shared[i - 1])
+            total += width
+            most = max(most, width)
+        length[0], largest[0] = total, most
+        return length, largest
+    for i in range(1, samples):
+        for j in range(columns):
+            width = abs(u[i, j] - u[i - 1, j])
+            length[j] += width
+            largest[j] = max(largest[j], width)
     return length, largest
 
 
@@ -88,15 +88,12 @@ def _regrown(g: float, drive: float, along: float, against: float, width: float)
 
 
 @njit(cache=True, error_model="numpy")
-def _coarse(work: NDArray, used: int, fastest: float) -> int:
+def _coarse(work: NDArray, used: int, largest: float) -> int:
     """Advance g by increments of any width, one for each lane: the series on a part of the increment that
-    is short enough, then doubled. -> number of lanes that want `_mended`."""
-    widest = 0.0
-    for j in range(used):
-        widest = max(widest, work[WIDTH + j])
+    is short enough, then doubled. largest : of |rate w| in all lanes -> number of lanes that want `_mended`."""
     doublings = 0
     scale = 1.0
-    while fastest * widest * scale > SERIES_LIMIT:
+    while largest * scale > SERIES_LIMIT:
         doublings += 1
         scale *= 0.5
     for j in range(used):
@@ -135,11 +132,14 @@ def _mended(work: NDArray, used: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _turned(work: NDArray, first: int, last: int) -> None:
-    """Reversal of the input of these lanes: g = s h changes sign with s."""
-    for j in range(first, last):
-        work[G + j] = -work[G + j]
-        work[DIRECTION + j] = -work[DIRECTION + j]
+def _turned(work: NDArray, used: int) -> None:
+    """Reversal of the input of the lanes whose increment (in WIDTH, with its sign) and RISING disagree:
+    g = s h changes sign with s."""
+    for j in range(used):
+        if work[WIDTH + j] * work[RISING + j] < 0.0:
+            work[RISING + j] = -work[RISING + j]
+            work[G + j] = -work[G + j]
+            work[DIRECTION + j] = -work[DIRECTION + j]
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -162,6 +162,7 @@ def bouc_wen(u: NDArray, alpha: NDArray, beta: NDArray, gamma: NDArray, d: NDArr
         used = min(LANES, swarm - first)
         work = np.zeros(ROWS * LANES)
         fastest = 0.0
+        widest = 0.0
         for j in range(used):
             column = first + j if columns > 1 else 0
             loop = alpha[first + j] * d[first + j]
@@ -173,18 +174,22 @@ def bouc_wen(u: NDArray, alpha: NDArray, beta: NDArray, gamma: NDArray, d: NDArr
             work[BOUND + j] = RUNAWAY * abs(loop) * length[column]
             work[SLOPE + j] = d[first + j]
             work[DIRECTION + j] = mirror
+            work[RISING + j] = 1.0
+            widest = max(widest, largest[column])
             fastest = max(fastest, max(abs(work[ALONG + j]), abs(work[AGAINST + j])))
             v[0, first + j] = d[first + j] * u[0, column]
-        rising = np.ones(LANES, dtype=np.bool_)
         for i in range(1, samples):
+            turned = 0
             if columns > 1:
                 for j in range(used):
                     step = u[i, first + j] - u[i - 1, first + j]
-                    if (step < 0.0) if rising[j] else (step > 0.0):
-                        rising[j] = not rising[j]
-                        _turned(work, j, j + 1)
-                    work[WIDTH + j] = abs(step)
-                if _coarse(work, used, fastest) > 0:
+                    work[WIDTH + j] = step
+                    turned += 1 if step * work[RISING + j] < 0.0 else 0
+                if turned > 0:
+                    _turned(work, used)
+                for j in range(used):
+                    work[WIDTH + j] = abs(work[WIDTH + j])
+                if _coarse(work, used, fastest * widest) > 0:
                     _mended(work, used)
                 for j in range(used):
                     v[i, first + j] = work[SLOPE + j] * u[i, first + j] - work[DIRECTION + j] * work[G + j]
@@ -193,13 +198,13 @@ def bouc_wen(u: NDArray, alpha: NDArray, beta: NDArray, gamma: NDArray, d: NDArr
             x = u[i, 0]
             step = x - u[i - 1, 0]
             width = abs(step)
-            if (step < 0.0) if rising[0] else (step > 0.0):
-                rising[0] = not rising[0]
-                _turned(work, 0, used)
+            if step * work[RISING] < 0.0:
+                work[WIDTH : WIDTH + used] = step
+                _turned(work, used)
             special = 0
             if fastest * width > SERIES_LIMIT:
                 work[WIDTH : WIDTH + used] = width
-                special = _coarse(work, used, fastest)
+                special = _coarse(work, used, fastest * width)
                 for j in range(used):
                     v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
             else:  # finely sampled data: the same in one pass
