@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.objective import Trace
-from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, TRIALS
+from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STUDY, TRIALS
 from hysteresis_bench.study.store import Outcome, Store
 
 STUDIES = Path(__file__).parents[1] / "studies"
@@ -39,6 +39,7 @@ def write_results(
     if published:
         (folder / PUBLISHED).write_bytes((STUDIES / "sma.published.toml").read_bytes())
     (folder / PROVENANCE).write_text(json.dumps(provenance(budget)), encoding="utf-8")
+    (folder / IDENTIFIABILITY).write_text(json.dumps(identifiability()), encoding="utf-8")
     with Store(folder) as store:
         store.begin("Synthetic")
         for problem in PROBLEMS:
@@ -110,3 +111,15 @@ def provenance(budget: int) -> dict:
             for label, (plugin, _, _, cost) in OPTIMIZERS.items()
         },
     }  # fmt: skip
+
+
+def identifiability() -> dict:
+    names, grid = ["alpha", "a", "k", "M_s", "c"], np.linspace(5, 15, 13)
+    told = {
+        "names": names, "units": ["1", "°C", "°C", "A/m", "1"], "values": [1e-9, 10.0, 30.0, 2.5e7, 0.5],
+        "standard_errors": [None, 0.1, 0.4, 3e7, 0.01], "rank": 4, "determined": 3,
+        "singular_values": [9, 5, 3, 1, 0],
+        "effective_samples": 40.0, "sentences": ["alpha cannot be told from these records."],
+        "profiles": [{"name": "a", "grid": grid.tolist(), "ratio": (4.0 * (grid - 10) ** 2).tolist()}],
+    }  # fmt: skip
+    return {PROBLEMS[0]: told, PROBLEMS[1]: {"fault": "there are more parameters than samples"}}

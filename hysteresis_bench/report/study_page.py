@@ -12,6 +12,7 @@ import pandas as pd
 from hysteresis_bench import stats
 from hysteresis_bench.report import beside, claims, tables, words
 from hysteresis_bench.report.audit import Finding, audit
+from hysteresis_bench.report.determined import determined
 from hysteresis_bench.report.figures import FLOOR, Look, all_trials, choose, convergence, runtime
 from hysteresis_bench.report.page import Cell, Table, listed, render, whole
 from hysteresis_bench.report.published import Published, check_published
@@ -29,6 +30,7 @@ HEADINGS = (
     ("searches", "How the searches went"),
     ("signals", "Drive and response, loops, errors"),
     ("held-out", "Fitted and held-out error"),
+    ("determined", "What the data determine"),
     ("audit", "Paper audit"),
     ("decisions", "What was left open, and decided"),
     ("definitions", "Definitions, and where every number comes from"),
@@ -112,6 +114,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
         "convergence": [convergence(folder, f"convergence-{i}", p, looks, budget) for i, p in drawn],
         "runtime": [runtime(folder, f"runtime-{i}", p, looks, budget) for i, p in drawn],
         **signals(results, here, published, looks, folder),
+        "determined": determined(results, folder),
         "audit": tables.audit(findings) if findings else None,
         "audited": audited(findings),
         "decisions": decisions if published.decision else None,

@@ -167,7 +167,7 @@ def parsed(html):
 def test_the_page_has_every_section_and_needs_nothing_else(folder, page):
     links = parsed(page)
     for section in ("answer", "run", "published", "claims", "optimizers", "iterations", "searches", "signals",
-                    "held-out", "audit", "decisions", "definitions"):  # fmt: skip
+                    "held-out", "determined", "audit", "decisions", "definitions"):  # fmt: skip
         assert section in links.ids
     assert not [source for source in links.sources if re.match(r"(?i)(https?:)?//|data:", source)]
     assert "<script" not in page
@@ -192,6 +192,14 @@ def test_published_numbers_and_failures_stand_in_the_page(page):
     assert "unpublished" in text
     assert "stopped after 600 s" in text
     assert "not borne out" not in text
+
+
+def test_what_the_data_cannot_tell_stands_in_the_page(page):
+    text = re.sub(r"<[^>]+>", " ", page)
+    assert "alpha cannot be told from these records." in text
+    assert "4 of 5 directions" in text
+    assert "more parameters than samples" in text
+    assert "profile-1-1.svg" in page
 
 
 def test_figures_follow_the_page_and_stand_alone_on_disk(folder, page):
