@@ -1,0 +1,103 @@
+"""First-order lags of a swarm, exact for a signal that is linear between its samples, on any time grid.
+
+A lag tau dv/dt + v = u that starts in static equilibrium, v = u at the first sample, is followed by its
+deviation e = v - u. Over a step of duration h on which u changes by du, with x = h / tau,
+
+    e  ->  exp(-x) e  -  du (1 - exp(-x)) / x.
+
+tau = 0 gives exp(-x) = 0 and a deviation of exactly 0, so that v = u to the last bit.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+SAME_STEP = 1e-9
+"""Steps of the time grid that differ by less than this share count as equal: an even grid costs one
+exponential a column."""
+
+
+@njit(cache=True, error_model="numpy")
+def _decays(step: float, time_constant: NDArray, kept: NDArray, passed: NDArray) -> None:
+    """exp(-x) and (1 - exp(-x)) / x of every column, x = step / time constant."""
+    for j in range(time_constant.size):
+        if time_constant[j] > 0.0:
+            x = step / time_constant[j]
+            kept[j] = math.exp(-x)
+            passed[j] = -math.expm1(-x) / x if x > 0.0 else 1.0  # a lag so slow that x underflows
+        else:
+            kept[j] = 0.0
+            passed[j] = 0.0
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def lag(time: NDArray, u: NDArray, time_constant: NDArray) -> NDArray:
+    """First-order lag of every column, tau dv/dt + v = u, in static equilibrium with the first sample.
+
+    time : float64[samples]                               strictly increasing, any spacing
+    u : float64[samples, 1] or float64[samples, swarm]    input, linear between its samples
+    time_constant : float64[swarm]                        tau >= 0, unit of time; 0: v = u to the last bit
+    -> float64[samples, swarm]                            v, unit of u, within the range of u
+    """
+    samples, columns = u.shape
+    swarm = time_constant.size
+    v = np.empty((samples, swarm))
+    kept = np.empty(swarm)
+    passed = np.empty(swarm)
+    deviation = np.zeros(swarm)
+    known = 0.0
+    for j in range(swarm):
+        v[0, j] = u[0, j if columns > 1 else 0]
+    for i in range(1, samples):
+        step = time[i] - time[i - 1]
+        if abs(step - known) > SAME_STEP * known:
+            known = step
+            _decays(step, time_constant, kept, passed)
+        for j in range(swarm):
+            now = u[i, j] if columns > 1 else u[i, 0]
+            before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
+            deviation[j] = kept[j] * deviation[j] - passed[j] * (now - before)
+            v[i, j] = now + deviation[j]
+    return v
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def late_response(time: NDArray, u: NDArray, share: NDArray, time_constants: NDArray) -> NDArray:
+    """A share of the signal arrives late, through equally weighted lags: u + share mean_k(lag_k(u) - u).
+
+    time : float64[samples]                               strictly increasing, any spacing
+    u : float64[samples, 1] or float64[samples, swarm]    linear between its samples
+    share : float64[swarm]                                0: the signal itself, to the last bit
+    time_constants : float64[lags, swarm]                 >= 0, unit of time
+    -> float64[samples, swarm]                            unit of u; equal to u at the first sample and in rest
+    """
+    samples, columns = u.shape
+    lags, swarm = time_constants.shape
+    v = np.empty((samples, swarm))
+    kept = np.empty((lags, swarm))
+    passed = np.empty((lags, swarm))
+    deviation = np.zeros((lags, swarm))
+    total = np.empty(swarm)
+    weight = share / lags
+    known = 0.0
+    for j in range(swarm):
+        v[0, j] = u[0, j if columns > 1 else 0]
+    for i in range(1, samples):
+        step = time[i] - time[i - 1]
+        if abs(step - known) > SAME_STEP * known:
+            known = step
+            for k in range(lags):
+                _decays(step, time_constants[k], kept[k], passed[k])
+        total[:] = 0.0
+        for k in range(lags):
+            for j in range(swarm):
+                change = u[i, j] - u[i - 1, j] if columns > 1 else u[i, 0] - u[i - 1, 0]
+                deviation[k, j] = kept[k, j] * deviation[k, j] - passed[k, j] * change
+                total[j] += deviation[k, j]
+        for j in range(swarm):
+            v[i, j] = u[i, j if columns > 1 else 0] + weight[j] * total[j]
+    return v

@@ -1,0 +1,35 @@
+"""The play operator of a swarm: what a gear with a clearance does to a motion."""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+
+@njit(cache=True, error_model="numpy")
+def play(u: NDArray, radius: NDArray) -> NDArray:
+    """Play (backlash) operator: the output follows the input with a dead band.
+
+    Rate-independent: the order of samples matters, their times do not. Exact for an input that is monotone
+    between its samples.
+
+    u : float64[samples, 1] or float64[samples, swarm]    input, any unit
+    radius : float64[swarm]                               half-width of the dead band, unit of u, >= 0;
+                                                          0: the input itself, to the last bit
+    -> float64[samples, swarm]                            unit of u
+
+    [1]  p_i = max(u_i - r, min(u_i + r, p_{i-1}))
+    Ours: starts at p_0 = u_0, in the middle of the dead band.
+    [1] M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer (1996), chapter 2.
+    """
+    samples, columns = u.shape
+    swarm = radius.size
+    p = np.empty((samples, swarm))
+    for j in range(swarm):
+        p[0, j] = u[0, j if columns > 1 else 0]
+    for i in range(1, samples):
+        for j in range(swarm):
+            now = u[i, j] if columns > 1 else u[i, 0]
+            p[i, j] = max(now - radius[j], min(now + radius[j], p[i - 1, j]))
+    return p
