@@ -1,0 +1,77 @@
+"""What the effects take from the ranges of records: their boxes, and why they cannot be fitted."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hysteresis_bench.signals import Record
+
+FINEST = 0.02
+"""Time constants are searched down to this share of a sampling step: less leaves no trace in the samples."""
+
+COARSE = 0.25
+"""An input that moves by more than this share of its range in a typical step is not resolved in time."""
+
+
+def input_span(records: Sequence[Record]) -> float:
+    """Largest range of the input within one record."""
+    return max(float(np.ptp(record.input)) for record in records)
+
+
+def output_span(records: Sequence[Record]) -> float:
+    """Largest range of the measured output within one record."""
+    return max(float(np.ptp(record.measured)) for record in records)
+
+
+def largest_input(records: Sequence[Record]) -> float:
+    return max(float(np.max(np.abs(record.input))) for record in records)
+
+
+def duration(record: Record) -> float:
+    return float(record.time[-1] - record.time[0])
+
+
+def longest(records: Sequence[Record]) -> float:
+    """Duration of the longest record, unit of time."""
+    return max(duration(record) for record in records)
+
+
+def finest_step(records: Sequence[Record]) -> float:
+    """Median sampling step of the most finely sampled record, unit of time."""
+    return min(float(np.median(np.diff(record.time))) for record in records)
+
+
+def dominant_frequency(record: Record) -> float:
+    """Frequency of the input's largest spectral line, 1 / unit of time; the record's own where it has none."""
+    if np.ptp(record.input) == 0.0:
+        return 1.0 / duration(record)
+    time = np.linspace(record.time[0], record.time[-1], record.time.size)
+    drive = np.interp(time, record.time, record.input)
+    spectrum = np.abs(np.fft.rfft(drive - np.mean(drive)))
+    return float(np.argmax(spectrum[1:]) + 1) / duration(record)
+
+
+def without_time(records: Sequence[Record]) -> str:
+    """The reason against an effect of time or rate, or an empty string."""
+    if not all(record.timed for record in records):
+        return "the time of these records is only an index"
+    return ""
+
+
+def motionless(records: Sequence[Record]) -> str:
+    """The reason against an effect on the input, or an empty string."""
+    return "the input never moves" if input_span(records) == 0.0 else ""
+
+
+def unresolved(records: Sequence[Record]) -> str:
+    """The reason against a lag or a delay, or an empty string."""
+    if reason := without_time(records) or motionless(records):
+        return reason
+    if max(record.time.size for record in records) < 8:
+        return "no record has 8 samples"
+    steps = [float(np.median(np.abs(np.diff(r.input))) / np.ptp(r.input)) for r in records if np.ptp(r.input) > 0]
+    if min(steps) > COARSE:
+        return f"the sampling is too coarse: in a typical step the input moves by {100 * min(steps):.0f} % of its range"
+    return ""

@@ -1,0 +1,39 @@
+"""Backlash: a clearance between the input and what it moves."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import input_span, motionless
+
+
+@dataclass(frozen=True)
+class Backlash(Effect):
+    """A dead band on the input, such as a gear's clearance: after a reversal it first has to be crossed.
+
+    p_i = max(u_i - r, min(u_i + r, p_{i-1})), r = half_width, the model sees p [1]: the play operator, exact
+    for an input that is monotone between its samples. Ours: it starts in the middle of the band, p_0 = u_0.
+
+    [1] M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer (1996), chapter 2.
+    """
+
+    parameters = (Parameter("half_width", 0.0, 1.0, "{input}", null=0.0, meaning="of the dead band"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.play import play
+
+        return inner(signal.with_input(play(signal.input, p.half_width)))
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Up to 0.4 times the range of the input; 0.5 would let no motion through."""
+        return (self.parameters[0].within(0.0, 0.4 * (input_span(records) or 1.0)),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return motionless(records)

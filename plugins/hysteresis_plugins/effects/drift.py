@@ -1,0 +1,38 @@
+"""Drift: the output runs away linearly in time."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import longest, output_span, without_time
+
+
+@dataclass(frozen=True)
+class Drift(Effect):
+    """The zero of the output runs away linearly in time, from the first sample of every record.
+
+    y = x + rate (t - t_0), x the response: the drift of a sensor or a charge amplifier [1].
+
+    [1] JCGM 200:2012, International vocabulary of metrology, 4.21 instrumental drift.
+    """
+
+    parameters = (Parameter("rate", -1.0, 1.0, "{output}/{time}", null=0.0, meaning="of the output's zero"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        output = inner(signal)
+        return output + p.rate * (signal.time - signal.time[0])[:, None] if signal.timed else output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Up to the range of the output in the longest record: more would have shown in that range."""
+        fastest = (output_span(records) or 1.0) / longest(records)
+        return (self.parameters[0].within(-fastest, fastest),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return without_time(records)

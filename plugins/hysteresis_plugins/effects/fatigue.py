@@ -1,0 +1,56 @@
+"""Fatigue: the amplitude falls with the path travelled."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import input_span, motionless
+
+SHORTEST = 4.0
+"""Paths of the input, in ranges of it, below which a decay looks like a part of the loop: two cycles."""
+
+
+@dataclass(frozen=True)
+class Fatigue(Effect):
+    """The amplitude of the output falls exponentially with the path that the input has travelled.
+
+    y = x exp(-rate s), s = sum |u_i - u_(i-1)| since the first sample of the record, x the response: a
+    damage that grows with every cycle in proportion to its amplitude and to what is left, as in the
+    strength degradation of cyclic plasticity and Bouc-Wen models [1, there with the dissipated energy].
+
+    A record counts its own path, as it restarts the model. Noise on the input adds to the path.
+
+    [1] T. T. Baber, Y.-K. Wen, Random vibration of hysteretic, degrading systems, Journal of the Engineering
+    Mechanics Division 107 (1981) 1069-1087.
+    """
+
+    parameters = (Parameter("rate", 0.0, 1.0, "1/{input}", null=0.0, meaning="loss of amplitude a path"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        return inner(signal) * np.exp(-p.rate * _path(signal.input))
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Up to a fall by a factor e³ in the record with the longest path."""
+        longest = max(float(_path(record.signal.input)[-1, 0]) for record in records)
+        return (self.parameters[0].within(0.0, 3.0 / (longest or 1.0)),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        if reason := motionless(records):
+            return reason
+        longest = max(float(_path(record.signal.input)[-1, 0]) for record in records)
+        if longest < SHORTEST * input_span(records):
+            return "the input passes through its range less than four times"
+        return ""
+
+
+def _path(values: NDArray) -> NDArray:
+    """Length of the path since the first sample, same shape."""
+    return np.cumsum(np.abs(np.diff(values, axis=0, prepend=values[:1])), axis=0)

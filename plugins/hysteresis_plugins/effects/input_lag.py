@@ -1,0 +1,44 @@
+"""Input lag: what drives the hysteresis follows the measured input with a first-order lag."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
+
+
+@dataclass(frozen=True)
+class InputLag(Effect):
+    """A first-order lag before the hysteresis, such as a thermal or an amplifier's lag.
+
+    tau dv/dt + v = u, v = u at the first sample; the model sees v. Exact for an input that is linear between
+    its samples [1].
+
+    The box is logarithmic and ends above the null 0, at a lag of a fiftieth of a sampling step, which no
+    longer differs from none.
+
+    [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), first-order systems.
+    """
+
+    parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.lag import lag
+
+        if not signal.timed:
+            return inner(signal)
+        return inner(signal.with_input(lag(signal.time, signal.input, p.time_constant)))
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """From a fiftieth of a sampling step to the duration of the longest record."""
+        return (self.parameters[0].within(FINEST * finest_step(records), longest(records)),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return unresolved(records)

@@ -1,0 +1,43 @@
+"""Output lag: what is measured follows the response with a first-order lag."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
+
+
+@dataclass(frozen=True)
+class OutputLag(Effect):
+    """A first-order lag after the hysteresis, such as a sensor's lag or an overdamped mechanism's.
+
+    tau dy/dt + y = x, x the response, y = x at the first sample. Exact for a response that is linear between
+    its samples [1].
+
+    The box is logarithmic and ends above the null 0, at a lag of a fiftieth of a sampling step, which no
+    longer differs from none.
+
+    [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), first-order systems.
+    """
+
+    parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.lag import lag
+
+        output = inner(signal)
+        return lag(signal.time, output, p.time_constant) if signal.timed else output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """From a fiftieth of a sampling step to the duration of the longest record."""
+        return (self.parameters[0].within(FINEST * finest_step(records), longest(records)),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return unresolved(records)

@@ -1,0 +1,115 @@
+"""Periodic disturbance: a hum on the output, such as the mains'."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import (
+    dominant_frequency,
+    duration,
+    finest_step,
+    longest,
+    output_span,
+    without_time,
+)
+
+PERIODS = 3.0
+"""The slowest disturbance has this many periods in the longest record; fewer would be a drift."""
+
+HARMONICS = 20
+"""So many harmonics of the drive are not proposed: there, what the model lacks looks periodic too."""
+
+PROPOSALS = 3
+
+
+@dataclass(frozen=True)
+class PeriodicDisturbance(Effect):
+    """A sinusoid of unknown frequency is added to the output, such as the hum of the mains.
+
+    y = x + cosine cos(2 pi f t) + sine sin(2 pi f t), x the response, t the record's own time: parts of one
+    record, or records of one clock, share its phase.
+
+    Amplitudes are linear and easy, the frequency is not: the error has a minimum at every line of the
+    spectrum, so a fit should begin at what `starts` proposes, the highest lines of the residual [1].
+
+    [1] B. G. Quinn, E. J. Hannan, The Estimation and Tracking of Frequency, Cambridge University Press (2001).
+    """
+
+    parameters = (
+        Parameter("cosine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude in phase with t = 0"),
+        Parameter("sine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude a quarter period later"),
+        Parameter("frequency", 0.1, 100.0, "1/{time}", meaning="of the disturbance"),
+    )
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        output = inner(signal)
+        if not signal.timed:
+            return output
+        phase = 2.0 * np.pi * p.frequency * signal.time[:, None]
+        return output + (p.cosine * np.cos(phase) + p.sine * np.sin(phase))
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Amplitudes up to half the range of the output; frequencies from three periods in the longest record
+        to the Nyquist frequency of the finest."""
+        cosine, sine, frequency = self.parameters
+        half = 0.5 * (output_span(records) or 1.0)
+        low, high = PERIODS / longest(records), 0.5 / finest_step(records)
+        return cosine.within(-half, half), sine.within(-half, half), frequency.within(low, high)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        if reason := without_time(records):
+            return reason
+        if max(record.time.size for record in records) < 4 * PERIODS:
+            return f"no record has {4 * PERIODS:.0f} samples"
+        return ""
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[NDArray]) -> list[dict[str, float]]:
+        """Values from which to fit, the most promising first: the highest lines of the residuals' common
+        spectrum that are no harmonics of the drive.
+
+        residuals : (scored samples,) a record, measured minus simulated, unit of the output
+        """
+        low, high = self.box(records)[2].lower, self.box(records)[2].upper
+        resolution = 1.0 / longest(records)
+        grid = np.arange(low, high, 0.25 * resolution)
+        power = np.zeros(grid.size)
+        for record, residual in zip(records, residuals, strict=True):
+            power += _power(record.time[record.scored], residual, grid)
+            drive = dominant_frequency(record)
+            harmonic = np.clip(np.round(grid / drive), 1, HARMONICS)
+            power[np.abs(grid - harmonic * drive) < 1.0 / duration(record)] = -np.inf
+        found: list[dict[str, float]] = []
+        while len(found) < PROPOSALS and grid.size and np.max(power) > 0.0:
+            frequency = float(grid[np.argmax(power)])
+            found.append(_amplitudes(records, residuals, frequency))
+            power[np.abs(grid - frequency) < 2.0 * resolution] = -np.inf
+        return found
+
+
+def _power(time: NDArray, residual: NDArray, grid: NDArray) -> NDArray:
+    """Spectrum of one residual on a grid of frequencies: resampled evenly, without its trend, tapered and
+    padded, so that neither its ends nor its slow part leak."""
+    even = np.linspace(time[0], time[-1], time.size)
+    values = np.interp(even, time, residual)
+    values = values - np.polynomial.Polynomial.fit(even, values, 1)(even)
+    padded = 1 << int(np.ceil(np.log2(8 * even.size)))
+    spectrum = np.abs(np.fft.rfft(values * np.hanning(even.size), padded)) ** 2 / even.size
+    frequencies = np.fft.rfftfreq(padded, (even[-1] - even[0]) / (even.size - 1))
+    return np.interp(grid, frequencies, spectrum, right=0.0)
+
+
+def _amplitudes(records: Sequence[Record], residuals: Sequence[NDArray], frequency: float) -> dict[str, float]:
+    """Least-squares amplitudes at one frequency, all records together, each with its own constant."""
+    phase = 2.0 * np.pi * frequency * np.concatenate([record.time[record.scored] for record in records])
+    owner = np.repeat(np.arange(len(records)), [residual.size for residual in residuals])
+    columns = np.column_stack([np.cos(phase), np.sin(phase), *(owner == k for k in range(len(records)))])
+    solution = np.linalg.lstsq(columns, np.concatenate(residuals), rcond=None)[0]
+    return {"cosine": float(solution[0]), "sine": float(solution[1]), "frequency": frequency}

@@ -1,0 +1,51 @@
+"""Saturation: the output cannot leave a range."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import output_span
+
+
+@dataclass(frozen=True)
+class Saturation(Effect):
+    """A smooth, symmetric saturation of the output, such as an amplifier's or a mechanical stop's.
+
+    y = x / (1 + |k x|^n)^(1/n), x the response, k = inverse_level: |y| stays below 1/k [1].
+
+    n, the sharpness, goes from a gentle bend (1) over nearly tanh (2.4) to nearly a clip (10). The level
+    counts from the response's zero, so offsets (`bias`) belong outside. Near the null the effect is of the
+    order (k x)^n: it grows without a jump, and a search has to start away from 0 to feel it.
+
+    [1] C. Rapp, Effects of HPA-nonlinearity on a 4-DPSK/OFDM-signal for a digital sound broadcasting system,
+    2nd European Conference on Satellite Communications (1991) 179-184.
+    """
+
+    parameters = (
+        Parameter("inverse_level", 0.0, 1.0, "1/{output}", null=0.0, meaning="1 / the largest |output|"),
+        Parameter("sharpness", 1.0, 10.0, scaling="log", meaning="of the bend, n"),
+    )
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        output = inner(signal)
+        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
+            excess = np.abs(p.inverse_level * output)
+            # the powers of the smaller of excess and 1 / excess, so that none overflows
+            folded = np.exp(-np.log1p(np.minimum(excess, 1.0 / excess) ** p.sharpness) / p.sharpness)
+            return np.where(excess <= 1.0, output * folded, np.sign(output) * folded / p.inverse_level)
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Levels from 0.45 times the output's range, less than which a symmetric output would not pass."""
+        inverse_level, sharpness = self.parameters
+        return inverse_level.within(0.0, 1.0 / (0.45 * (output_span(records) or 1.0))), sharpness
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return "the output never moves" if output_span(records) == 0.0 else ""

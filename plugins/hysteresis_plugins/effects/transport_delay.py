@@ -1,0 +1,48 @@
+"""Transport delay: the response arrives later, unchanged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import FINEST, dominant_frequency, finest_step, unresolved
+
+
+@dataclass(frozen=True)
+class TransportDelay(Effect):
+    """A pure delay between input and output, such as an instrument's or a pipe's.
+
+    y(t) = x(t - delay), x the response, constant before the first sample [1]. Linear between samples.
+
+    Every model and effect that does not know the absolute time commutes with a delay, so it acts on the
+    output, where interpolation keeps the response's extrema; interpolating the input would cut the turning
+    points that the memory of a hysteresis is made of.
+
+    The box is logarithmic and ends above the null 0, at a delay of a fiftieth of a sampling step, which no
+    longer differs from none. Its upper edge is half a period of the input: a longer delay of a periodic
+    signal looks like a shorter one.
+
+    [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), transport lag.
+    """
+
+    parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.delay import delay
+
+        output = inner(signal)
+        return delay(signal.time, output, p.delay) if signal.timed else output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """From a fiftieth of a sampling step to half the period of the slowest record's input."""
+        period = 1.0 / min(dominant_frequency(record) for record in records)
+        return (self.parameters[0].within(FINEST * finest_step(records), 0.5 * period),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return unresolved(records)
