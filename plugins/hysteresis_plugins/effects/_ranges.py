@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hysteresis_bench.signals import Record
 
@@ -43,14 +44,27 @@ def finest_step(records: Sequence[Record]) -> float:
     return min(float(np.median(np.diff(record.time))) for record in records)
 
 
+def spectrum(time: NDArray, values: NDArray) -> tuple[NDArray, NDArray]:
+    """Frequencies and amplitudes of an unevenly sampled signal: resampled evenly, without its mean, tapered
+    and padded, so that its ends do not leak and its lines are resolved finely."""
+    even = np.linspace(time[0], time[-1], time.size)
+    resampled = np.interp(even, time, values)
+    padded = 1 << int(np.ceil(np.log2(8 * even.size)))
+    tapered = (resampled - np.mean(resampled)) * np.hanning(even.size)
+    return np.fft.rfftfreq(padded, even[1] - even[0]), np.abs(np.fft.rfft(tapered, padded)) / np.sqrt(even.size)
+
+
 def dominant_frequency(record: Record) -> float:
-    """Frequency of the input's largest spectral line, 1 / unit of time; the record's own where it has none."""
-    if np.ptp(record.input) == 0.0:
-        return 1.0 / duration(record)
-    time = np.linspace(record.time[0], record.time[-1], record.time.size)
-    drive = np.interp(time, record.time, record.input)
-    spectrum = np.abs(np.fft.rfft(drive - np.mean(drive)))
-    return float(np.argmax(spectrum[1:]) + 1) / duration(record)
+    """Frequency of the input's largest spectral line, 1 / unit of time; at least one period in the record."""
+    lowest = 1.0 / duration(record)
+    if np.ptp(record.input) == 0.0 or record.time.size < 4:
+        return lowest
+    frequencies, amplitudes = spectrum(record.time, record.input)
+    peak = int(np.clip(np.argmax(amplitudes), 1, amplitudes.size - 2))
+    before, here, after = np.log(amplitudes[peak - 1 : peak + 2] + np.finfo(float).tiny)
+    bend = before - 2.0 * here + after
+    between = 0.5 * (before - after) / bend if bend < 0.0 else 0.0  # the vertex of a parabola
+    return max(lowest, float((peak + between) * frequencies[1]))
 
 
 def without_time(records: Sequence[Record]) -> str:

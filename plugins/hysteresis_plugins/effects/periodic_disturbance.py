@@ -18,6 +18,7 @@ from hysteresis_plugins.effects._ranges import (
     finest_step,
     longest,
     output_span,
+    spectrum,
     without_time,
 )
 
@@ -28,6 +29,9 @@ HARMONICS = 20
 """So many harmonics of the drive are not proposed: there, what the model lacks looks periodic too."""
 
 PROPOSALS = 3
+
+MOST_LINES = 1 << 18
+"""Frequencies looked at, from the lowest; only a long record beside a finely sampled one has more."""
 
 
 @dataclass(frozen=True)
@@ -79,11 +83,12 @@ class PeriodicDisturbance(Effect):
         """
         low, high = self.box(records)[2].lower, self.box(records)[2].upper
         resolution = 1.0 / longest(records)
-        grid = np.arange(low, high, 0.25 * resolution)
+        grid = np.arange(low, min(high, low + MOST_LINES * 0.25 * resolution), 0.25 * resolution)
         power = np.zeros(grid.size)
         for record, residual in zip(records, residuals, strict=True):
-            power += _power(record.time[record.scored], residual, grid)
             drive = dominant_frequency(record)
+            frequencies, amplitudes = spectrum(record.time[record.scored], _without_drive(record, residual, drive))
+            power += np.interp(grid, frequencies, amplitudes**2, right=0.0)
             harmonic = np.clip(np.round(grid / drive), 1, HARMONICS)
             power[np.abs(grid - harmonic * drive) < 1.0 / duration(record)] = -np.inf
         found: list[dict[str, float]] = []
@@ -94,16 +99,14 @@ class PeriodicDisturbance(Effect):
         return found
 
 
-def _power(time: NDArray, residual: NDArray, grid: NDArray) -> NDArray:
-    """Spectrum of one residual on a grid of frequencies: resampled evenly, without its trend, tapered and
-    padded, so that neither its ends nor its slow part leak."""
-    even = np.linspace(time[0], time[-1], time.size)
-    values = np.interp(even, time, residual)
-    values = values - np.polynomial.Polynomial.fit(even, values, 1)(even)
-    padded = 1 << int(np.ceil(np.log2(8 * even.size)))
-    spectrum = np.abs(np.fft.rfft(values * np.hanning(even.size), padded)) ** 2 / even.size
-    frequencies = np.fft.rfftfreq(padded, (even[-1] - even[0]) / (even.size - 1))
-    return np.interp(grid, frequencies, spectrum, right=0.0)
+def _without_drive(record: Record, residual: NDArray, drive: float) -> NDArray:
+    """The residual less its trend and the harmonics of the drive, by least squares."""
+    time = record.time[record.scored]
+    turns = 2.0 * np.pi * drive * time
+    orders = [k for k in range(1, HARMONICS + 1) if k * drive < 0.4 * time.size / duration(record)]
+    waves = [wave(k * turns) for k in orders for wave in (np.cos, np.sin)]
+    columns = np.column_stack([np.ones(time.size), time - time[0], *waves])
+    return residual - columns @ np.linalg.lstsq(columns, residual, rcond=None)[0]
 
 
 def _amplitudes(records: Sequence[Record], residuals: Sequence[NDArray], frequency: float) -> dict[str, float]:

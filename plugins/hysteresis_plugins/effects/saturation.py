@@ -21,7 +21,7 @@ class Saturation(Effect):
 
     y = x / (1 + |k x|^n)^(1/n), x the response, k = inverse_level: |y| stays below 1/k [1].
 
-    n, the sharpness, goes from a gentle bend (1) over nearly tanh (2.4) to nearly a clip (10). The level
+    n, the sharpness, goes from a gentle bend (1) over nearly tanh (2.7) to nearly a clip (20). The level
     counts from the response's zero, so offsets (`bias`) belong outside. Near the null the effect is of the
     order (k x)^n: it grows without a jump, and a search has to start away from 0 to feel it.
 
@@ -31,7 +31,7 @@ class Saturation(Effect):
 
     parameters = (
         Parameter("inverse_level", 0.0, 1.0, "1/{output}", null=0.0, meaning="1 / the largest |output|"),
-        Parameter("sharpness", 1.0, 10.0, scaling="log", meaning="of the bend, n"),
+        Parameter("sharpness", 1.0, 20.0, scaling="log", meaning="of the bend, n"),
     )
 
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:

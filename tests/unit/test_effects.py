@@ -1,0 +1,227 @@
+"""Each effect against its own formula, its box, and why it would not apply."""
+
+from collections import namedtuple
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.signals import INDEX, Record, Signal
+
+TIME = np.linspace(2.0, 6.0, 401)
+DRIVE = 3.0 * np.sin(2 * np.pi * TIME) + 0.5
+
+
+def record(time=TIME, drive=DRIVE, name="record", **changes) -> Record:
+    return replace(Record(time, drive, 2.0 * drive, name=name), **changes)
+
+
+def applied(name: str, signal: Signal, settings=None, **values) -> np.ndarray:
+    """The effect around y = 2 u, for one set of parameters."""
+    effect: Effect = registry.build("effects", name, settings)
+    p = namedtuple("Values", values)(*(np.array([float(value)]) for value in values.values()))
+    return effect.apply(lambda seen: 2.0 * seen.input, signal, p)[:, 0]
+
+
+def box(name: str, *records: Record) -> dict[str, tuple[float, float]]:
+    parameters = registry.build("effects", name).box(records)
+    return {parameter.name: (parameter.lower, parameter.upper) for parameter in parameters}
+
+
+def against(name: str, *records: Record) -> str:
+    return registry.build("effects", name).inapplicable(records)
+
+
+STEP = Signal(TIME, np.where(TIME > 2.0, 1.0, 0.0)[:, None])
+SINCE = TIME - TIME[1]
+
+
+@pytest.mark.parametrize("name", ["input-lag", "output-lag"])
+def test_a_lag_answers_a_step_exponentially(name):
+    y = applied(name, STEP, time_constant=0.5)
+    start = y[1] - 2.0
+    np.testing.assert_allclose(y[1:], 2.0 + start * np.exp(-SINCE[1:] / 0.5), atol=1e-12)
+    assert abs(start + 2.0) < 0.03  # the step's own edge takes one sample
+
+
+def test_a_lag_before_and_after_a_linear_model_are_the_same():
+    signal = record().signal
+    before, after = (applied(name, signal, time_constant=0.3) for name in ("input-lag", "output-lag"))
+    np.testing.assert_allclose(before, after, atol=1e-12)
+
+
+def test_a_delayed_output_is_the_output_of_an_earlier_input():
+    y = applied("transport-delay", record().signal, delay=0.137)
+    np.testing.assert_allclose(y, 2.0 * np.interp(TIME - 0.137, TIME, DRIVE), atol=1e-12)
+
+
+def test_creep_keeps_the_static_gain_and_grows_with_the_logarithm_of_time():
+    time = np.concatenate([[-1e-6], np.geomspace(1e-6, 1e5, 2000)])
+    step = Signal(time, np.where(time > 0, 1.0, 0.0)[:, None])
+    y = applied("creep", step, share=0.3, time_constant=1.0, decades=4.0)
+    np.testing.assert_allclose(y[[0, 1, -1]], [0.0, 1.4, 2.0], atol=1e-4)
+    decades = np.log10(time[1:])
+    between = (decades > -1.5) & (decades < 1.5)
+    line = np.polynomial.Polynomial.fit(decades[between], y[1:][between], 1)
+    ripple = y[1:][between] - line(decades[between])
+    assert np.max(np.abs(ripple)) < 0.03 * 0.6
+    np.testing.assert_allclose(line.convert().coef[1], 0.6 / 5, rtol=0.1)  # five relaxations, one a decade
+
+
+def test_creep_of_no_decades_is_one_relaxation():
+    signal = record().signal
+    y = applied("creep", signal, share=0.4, time_constant=0.7, decades=0.0)
+    expected = 0.6 * 2.0 * DRIVE + 0.4 * applied("output-lag", signal, time_constant=0.7)
+    np.testing.assert_allclose(y, expected, atol=1e-12)
+
+
+def test_drift_counts_from_the_first_sample():
+    np.testing.assert_allclose(applied("drift", record().signal, rate=-0.25), 2.0 * DRIVE - 0.25 * (TIME - 2.0))
+
+
+def test_saturation_is_rapp_s_and_stays_below_its_level():
+    signal = record().signal
+    y = applied("saturation", signal, inverse_level=0.2, sharpness=2.0)
+    np.testing.assert_allclose(y, 2.0 * DRIVE / np.sqrt(1.0 + (0.4 * DRIVE) ** 2), rtol=1e-12)
+    huge = signal.with_input(1e40 * signal.input)
+    sharp = applied("saturation", huge, inverse_level=0.2, sharpness=20.0)
+    np.testing.assert_allclose(sharp, 5.0 * np.sign(DRIVE), rtol=1e-12)
+
+
+def test_saturation_comes_near_to_tanh_and_to_a_clip():
+    x = np.linspace(-1.5, 1.5, 301)
+    signal = Signal(x, x[:, None])
+    bent = applied("saturation", signal, inverse_level=1 / 0.97, sharpness=2.7)
+    assert np.max(np.abs(bent - 0.97 * np.tanh(2 * x / 0.97))) < 0.02
+    cut = applied("saturation", signal, inverse_level=1.0, sharpness=20.0)
+    assert np.sqrt(np.mean((cut - np.clip(2 * x, -1, 1)) ** 2)) < 0.01
+
+
+def test_asymmetry_stays_monotone_in_its_box():
+    low, high = box("asymmetry", record())["curvature"]
+    rising = np.linspace(-3.5, 3.5, 200)
+    for curvature in (low, high):
+        y = applied("asymmetry", Signal(rising, rising[:, None]), curvature=curvature)
+        assert np.all(np.diff(y) > 0)
+        np.testing.assert_allclose(y, 2.0 * (rising + curvature * rising**2))
+
+
+def test_backlash_holds_after_a_reversal():
+    drive = np.array([0.0, 1.0, 2.0, 1.5, 1.0, 0.0])
+    y = applied("backlash", Signal(np.arange(6.0), drive[:, None]), half_width=0.5)
+    np.testing.assert_array_equal(y, 2.0 * np.array([0.0, 0.5, 1.5, 1.5, 1.5, 0.5]))
+
+
+def test_fatigue_falls_with_the_path_and_not_with_time():
+    drive = np.array([0.0, 1.0, 1.0, -1.0, 1.0])
+    y = applied("fatigue", Signal(np.arange(5.0), drive[:, None]), rate=0.1)
+    np.testing.assert_allclose(y, 2.0 * drive * np.exp(-0.1 * np.array([0, 1, 1, 3, 5])))
+
+
+def test_a_disturbance_keeps_its_phase_in_a_part_of_a_record():
+    whole = record()
+    values = {"cosine": 0.3, "sine": -0.2, "frequency": 7.3}
+    full = applied("periodic-disturbance", whole.signal, **values)
+    part = applied("periodic-disturbance", whole.take(slice(100, None)).signal, **values)
+    assert np.array_equal(full[100:], part)
+    amplitude, phase = np.hypot(0.3, 0.2), np.arctan2(-0.2, 0.3)
+    np.testing.assert_allclose(full - 2 * DRIVE, amplitude * np.cos(2 * np.pi * 7.3 * TIME - phase), atol=1e-12)
+
+
+@pytest.mark.parametrize("uneven", [False, True])
+def test_a_hum_is_found_beside_noise_a_trend_and_harmonics_of_the_drive(uneven):
+    rng = np.random.default_rng(1)
+    records, residuals = [], []
+    for name, samples in (("a", 1500), ("b", 2100)):
+        time = np.linspace(0.0, samples / 500, samples)
+        time = time + (rng.uniform(-4e-4, 4e-4, samples) if uneven else 0.0)
+        drive = np.sin(2 * np.pi * 2.0 * time)
+        hum = 0.05 * np.sin(2 * np.pi * 49.9 * time + 0.4)
+        misfit = 0.4 * drive**3 + 0.3 * np.cos(2 * np.pi * 8.0 * time) + 0.2 * time
+        records.append(Record(time, drive, drive, name=name))
+        residuals.append(hum + misfit + 0.1 * rng.normal(size=samples))
+    first, *_ = registry.build("effects", "periodic-disturbance").starts(records, residuals)
+    assert abs(first["frequency"] - 49.9) < 0.1
+    assert abs(np.hypot(first["cosine"], first["sine"]) - 0.05) < 0.02
+    for key, (low, high) in box("periodic-disturbance", *records).items():
+        assert low <= first[key] <= high
+
+
+def test_temperature_scales_and_shifts():
+    warm = np.linspace(20.0, 60.0, TIME.size)
+    signal = replace(record().signal, columns={"temperature": warm})
+    y = applied("temperature-sensitivity", signal, gain=0.01, expansion=-0.02)
+    np.testing.assert_allclose(y, 2.0 * DRIVE * (1 + 0.01 * (warm - 20)) - 0.02 * (warm - 20))
+    kelvin = replace(signal, columns={"temperature": warm + 273.15})
+    again = applied("temperature-sensitivity", kelvin, {"reference": 293.15}, gain=0.01, expansion=-0.02)
+    np.testing.assert_allclose(again, y, rtol=1e-12)
+
+
+def test_without_a_temperature_it_says_so():
+    with pytest.raises(ValueError, match="column temperature"):
+        applied("temperature-sensitivity", record().signal, gain=0.0, expansion=0.0)
+
+
+def test_boxes_follow_the_data():
+    data = record()
+    assert box("drift", data)["rate"] == pytest.approx((-3.0, 3.0), rel=1e-3)  # 12 in 4 s
+    assert box("backlash", data)["half_width"] == pytest.approx((0.0, 2.4), rel=1e-3)
+    assert box("saturation", data)["inverse_level"] == pytest.approx((0.0, 1 / 5.4), rel=1e-3)
+    assert box("asymmetry", data)["curvature"] == pytest.approx((-0.45 / 3.5, 0.45 / 3.5), rel=1e-3)
+    assert box("fatigue", data)["rate"] == pytest.approx((0.0, 3.0 / 48.0), rel=1e-3)  # four cycles of 12
+    assert box("transport-delay", data)["delay"] == pytest.approx((2e-4, 0.5), rel=1e-2)  # half a period
+    for name in ("input-lag", "output-lag"):
+        assert box(name, data)["time_constant"] == pytest.approx((2e-4, 4.0), rel=1e-6)
+    assert box("periodic-disturbance", data)["frequency"] == pytest.approx((0.75, 50.0), rel=1e-6)
+
+
+RATE = ["input-lag", "output-lag", "transport-delay", "creep", "drift", "periodic-disturbance"]
+STATIC = ["saturation", "asymmetry", "backlash", "fatigue"]
+
+
+@pytest.mark.parametrize("name", RATE)
+def test_an_index_is_no_time(name):
+    assert "only an index" in against(name, record(units={"time": INDEX, "input": "V", "output": "um"}))
+
+
+@pytest.mark.parametrize("name", STATIC)
+def test_an_index_is_enough_for_what_has_no_rate(name):
+    assert against(name, record(units={"time": INDEX, "input": "V", "output": "um"})) == ""
+
+
+@pytest.mark.parametrize("name", [*RATE[:4], *STATIC[1:]])
+def test_an_input_that_never_moves_tells_nothing(name):
+    assert against(name, record(drive=np.ones(TIME.size))) == "the input never moves"
+
+
+def test_an_output_that_never_moves_cannot_saturate():
+    assert against("saturation", record(output=np.ones(TIME.size))) == "the output never moves"
+
+
+@pytest.mark.parametrize("name", RATE[:4])
+def test_coarse_and_short_records_do_not_resolve_a_lag(name):
+    coarse = slice(None, None, 33)  # three samples a cycle
+    assert "too coarse" in against(name, record(TIME[coarse], DRIVE[coarse]))
+    assert against(name, record(TIME[:5], DRIVE[:5])) == "no record has 8 samples"
+
+
+def test_one_loop_does_not_tell_fatigue():
+    assert "less than four times" in against("fatigue", record(TIME[:101], DRIVE[:101]))
+
+
+def test_too_few_samples_have_no_spectrum():
+    assert against("periodic-disturbance", record(TIME[:9], DRIVE[:9])) == "no record has 12 samples"
+
+
+@pytest.mark.parametrize(
+    ("columns", "reason"),
+    [
+        ({}, "record warm has no column temperature"),
+        ({"temperature": np.full(TIME.size, 25.0)}, "the temperature never changes"),
+        ({"temperature": np.full(TIME.size, np.nan)}, "the temperature is not known at every sample"),
+    ],
+)
+def test_temperature_has_to_be_known_and_to_change(columns, reason):
+    assert against("temperature-sensitivity", record(name="warm", columns=columns)) == reason
