@@ -1,0 +1,53 @@
+"""The nested-model test: does a system with one effect more fit better than chance would?
+
+An F test on residuals made white by the autoregression of the larger system's, with the degrees of freedom of
+the effective sample size (`coloured`). A parameter without effect under the null, such as the sharpness of a
+saturation that is switched off, is searched for all the same [1]: every such effect pays for `SEARCHED`
+parameters more than it has.
+
+[1] R. B. Davies, Hypothesis testing when a nuisance parameter is present only under the alternative,
+Biometrika 64 (1977) 247.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.diagnosis import coloured
+
+SEARCHED = 2
+"""Paid for the search over a parameter that the null does not know, and for the several starts."""
+
+
+@dataclass(frozen=True)
+class NestedTest:
+    """statistic : F;  p : not corrected for the number of candidates;  added : parameters paid for."""
+
+    statistic: float
+    p: float
+    added: int
+
+
+def nested_test(smaller: Sequence[NDArray], larger: Sequence[NDArray], added: int, free: int) -> NestedTest:
+    """smaller, larger : residuals (scored samples,) a record; added : parameters that the larger system has
+    more, searched ones paid for; free : all that it has."""
+    filter_ = coloured.autoregression(larger)
+    before, after = (
+        sum(float(part @ part) for part in coloured.whitened(residuals, filter_)) for residuals in (smaller, larger)
+    )
+    effective = coloured.effective_samples(larger)
+    samples = sum(part.size for part in larger)
+    if after <= 0.0 or before <= after:
+        return NestedTest(0.0, 1.0 if before <= after else 0.0, added)
+    statistic = (before - after) / added / (after / max(samples - free, 1))
+    corrected = statistic * effective / (effective + 2.0 * free)
+    return NestedTest(float(statistic), coloured.f_tail(corrected, added, effective - free), added)
+
+
+def rms(parts: Sequence[NDArray]) -> float:
+    """Over all records together."""
+    return float(np.sqrt(sum(float(part @ part) for part in parts) / sum(part.size for part in parts)))

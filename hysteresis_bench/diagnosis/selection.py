@@ -1,0 +1,185 @@
+"""Which effects does the data ask for? Forward selection, exchange, backward elimination.
+
+An effect is adopted when it passes three tests: the nested-model test at LEVEL over the number of candidates;
+blocks left out, on which it must win by `CLEAR` standard errors; and it must matter: a claim is made about an
+effect that the noise does not hide, not about every trace. Of those that pass, the one with the best
+cross-validated error joins; then every adopted effect is weighed against each alternative in its place, given
+the others, because the first to join may have been a stand-in for two; then what is no longer needed leaves.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hysteresis_bench.diagnosis.cross_validation import CLEAR, advantage
+from hysteresis_bench.diagnosis.crew import Crew
+from hysteresis_bench.diagnosis.nested import NestedTest
+from hysteresis_bench.diagnosis.stack import OFFSETS
+from hysteresis_bench.diagnosis.trials import Bench, Trial
+
+LEVEL = 0.01
+"""Of a claim where nothing is hidden, over all candidates of a round."""
+
+MATTERS = 1.03
+"""The RMSE without an effect over that with it: 1.03 is an effect of a quarter of the noise."""
+
+SHARE = 0.1
+"""Of the excess of the mean square over the noise's, which an effect must explain."""
+
+CLOSE = 0.5
+"""Two systems whose outputs differ by less than this many times the noise (RMS) are alike."""
+
+ALIKE = 1.02
+"""... and whose cross-validated errors are within this ratio."""
+
+MOST = 5
+
+
+@dataclass(frozen=True, eq=False)
+class Round:
+    """What was tried on top of `current`: trials and tests by candidate; `chosen` is empty where none passed."""
+
+    current: Trial
+    trials: Mapping[str, Trial]
+    tests: Mapping[str, NestedTest]
+    advantages: Mapping[str, float]
+    chosen: str
+
+
+@dataclass(eq=False)
+class Selection:
+    """The search's state and result.
+
+    floor : RMS that a perfect model leaves;  candidates : names that can be tried
+    """
+
+    bench: Bench
+    crew: Crew
+    floor: float
+    candidates: tuple[str, ...]
+    rounds: list[Round] = field(default_factory=list)
+    known: dict[frozenset[str], Trial] = field(default_factory=dict)
+
+    def run(self, base: Trial) -> Trial:
+        """From the bare model to the last adopted effect."""
+        current = base
+        visited = {current.names}
+        while True:
+            found = self._round(current)
+            self.rounds.append(found)
+            if not found.chosen or len(self.adopted(current)) >= MOST:
+                return current
+            current = self._settle(self.bench.refitted(found.trials[found.chosen]))
+            if current.names in visited:
+                return current
+            visited.add(current.names)
+
+    def adopted(self, trial: Trial) -> tuple[str, ...]:
+        return tuple(sorted(trial.names & set(self.candidates)))
+
+    def alternatives(self, current: Trial, name: str) -> dict[str, Trial]:
+        """The systems with another effect in the place of an adopted one."""
+        return self._extensions(self.without(current, name), exclude=(name,))
+
+    def without(self, trial: Trial, name: str) -> Trial:
+        return self._ask([("reduced", trial, name)], [trial.names - {name}])[0]
+
+    def needed(self, smaller: Trial, larger: Trial, candidates: int = 1) -> bool:
+        """Does the larger system pass the three tests against the smaller?"""
+        excess = max(smaller.rmse**2 - self.floor**2, 0.0)
+        explained = smaller.rmse**2 - larger.rmse**2
+        return (
+            smaller.rmse > MATTERS * max(larger.rmse, self.floor / MATTERS**2)
+            and explained > SHARE * excess
+            and advantage(larger.left_out, smaller.left_out, self.bench.blocks) > CLEAR
+            and self.bench.test(smaller, larger).p * candidates < LEVEL
+        )
+
+    def tied(self, one: Trial, other: Trial) -> bool:
+        """Do the data not tell them apart?"""
+        gain = advantage(one.left_out, other.left_out, self.bench.blocks)
+        ratio = other.cv_rmse / one.cv_rmse if one.cv_rmse > 0 else 1.0
+        apart = float(np.sqrt(np.mean((one.residuals - other.residuals) ** 2)))
+        similar = apart < CLOSE * max(self.floor, 0.0) and ratio < ALIKE and 1 / ratio < ALIKE
+        return similar and abs(gain) < CLEAR
+
+    def simplest(self, trials: Sequence[Trial]) -> Trial:
+        """Of the best and those tied with it, the one with fewest parameters, then alphabetically first."""
+        best = min(trials, key=lambda trial: trial.cv_rmse)
+        alike = [trial for trial in trials if trial is best or self.tied(best, trial)]
+        return min(alike, key=lambda trial: (len(trial.at_bound) > 0, len(trial.values), sorted(trial.names)))
+
+    def _round(self, current: Trial) -> Round:
+        trials = self._extensions(current)
+        tests = {name: self.bench.test(current, trial) for name, trial in trials.items()}
+        gains = {name: advantage(t.left_out, current.left_out, self.bench.blocks) for name, t in trials.items()}
+        passed = {name: t for name, t in trials.items() if self.needed(current, t, len(self.candidates))}
+        chosen = ""
+        if passed:
+            winner = self.simplest(list(passed.values()))
+            chosen = next(name for name, trial in passed.items() if trial is winner)
+        return Round(current, trials, tests, gains, chosen)
+
+    def _settle(self, current: Trial) -> Trial:
+        """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
+        for _ in range(2 * MOST):
+            better = self._dropped(current) or self._exchanged(current)
+            if better is None:
+                return current
+            current = better
+        return current
+
+    def _dropped(self, current: Trial) -> Trial | None:
+        names = self.adopted(current)
+        if len(names) < 2:
+            return None
+        smaller = self._ask([("reduced", current, name) for name in names], [current.names - {name} for name in names])
+        spare = [trial for trial in smaller if not self.needed(trial, current)]
+        return min(spare, key=lambda trial: trial.cv_rmse) if spare else None
+
+    def _exchanged(self, current: Trial) -> Trial | None:
+        names = self.adopted(current)
+        if len(names) < 2:
+            return None
+        for name in names:
+            rivals = [t for t in self.alternatives(current, name).values()]
+            if not rivals:
+                continue
+            best = self.simplest([current, *rivals])
+            if best is not current and best.cv_rmse < ALIKE * current.cv_rmse:
+                clear = advantage(best.left_out, current.left_out, self.bench.blocks) > CLEAR
+                if self.tied(current, best) or (clear and best.rmse < current.rmse):
+                    return self.bench.refitted(best)
+        return None
+
+    def _extensions(self, trial: Trial, exclude: Sequence[str] = ()) -> dict[str, Trial]:
+        names = [name for name in self.candidates if name not in trial.names and name not in exclude]
+        found = self._ask([("extended", trial, name) for name in names], [trial.names | {name} for name in names])
+        return dict(zip(names, found, strict=True))
+
+    def _ask(self, questions: Sequence[tuple], names: Sequence[frozenset[str]]) -> list[Trial]:
+        """Only what is not known yet."""
+        new = [place for place, key in enumerate(names) if key not in self.known]
+        for place, trial in zip(new, self.crew.map([questions[place] for place in new]), strict=True):
+            self.known[names[place]] = trial
+        return [self.known[key] for key in names]
+
+
+def without_offset(selection: Selection, trial: Trial) -> Trial:
+    """The same effects with the simplest offset that the data accept: none, one, one a record."""
+    bench = selection.bench
+    bare = trial.names - set(OFFSETS)
+    none = bench.reduced(trial, "record-offset")
+    if not _offset_needed(bench, none, trial):
+        return none
+    common = bench.extended(none, "bias")
+    if len(bench.stack.records) == 1 or not _offset_needed(bench, common, trial):
+        return common
+    return trial if bare != trial.names else none
+
+
+def _offset_needed(bench: Bench, smaller: Trial, larger: Trial) -> bool:
+    return bench.test(smaller, larger).p < LEVEL and advantage(larger.left_out, smaller.left_out, bench.blocks) > 1.0

@@ -1,0 +1,108 @@
+"""Where an effect belongs in the stack around a model, and which effects can be tried on given records."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from hysteresis_bench import registry
+from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Effect, Model
+from hysteresis_bench.loss import LOSSES
+from hysteresis_bench.objective import Problem
+from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import Record
+
+INNER = (
+    "backlash",
+    "asymmetry",
+    "input-lag",
+    "saturation",
+    "fatigue",
+    "temperature-sensitivity",
+    "creep",
+    "output-lag",
+    "resonance",
+    "transport-delay",
+)
+OUTER = ("periodic-disturbance", "drift", "bias", "record-offset")
+"""Innermost first: what acts on the input, then on the response, then what is added to it. An effect that is
+not named here, such as one of another distribution, stands between the two."""
+
+OFFSETS = ("bias", "record-offset")
+IN_LOOP = ("eddy-current",)
+"""Effects that only a model can offer, as a parameter of its own."""
+
+
+def place(name: str) -> tuple[int, str]:
+    """Sorts effects from the innermost to the outermost."""
+    if name in OUTER:
+        return len(INNER) + 1 + OUTER.index(name), name
+    return (INNER.index(name) if name in INNER else len(INNER)), name
+
+
+def in_loop(model: Model) -> dict[str, str]:
+    """Effects that the model offers itself: their names, and the parameters that switch them."""
+    return {p.name.replace("_", "-"): p.name for p in model.parameters if p.null is not None}
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """A model, and systems made of it and of effects given by name; the records that are fitted.
+
+    own : effects that the user put around the model to begin with, always there
+    bounds : replaces parts of the boxes that follow from the records
+    fixed : parameters that are known
+    """
+
+    model: Model
+    records: tuple[Record, ...]
+    own: tuple[str, ...] = ()
+    bounds: Mapping[str, tuple[float, float]] | None = None
+    fixed: Mapping[str, float] | None = None
+
+    @cached_property
+    def offered(self) -> dict[str, str]:
+        return in_loop(self.model)
+
+    def system(self, names: Collection[str]) -> System:
+        """The model with these effects in their places; what it offers itself is held at its null unless named."""
+        outside = sorted({*names, *self.own} - set(self.offered), key=place)
+        nulls = {p.name: float(p.null) for p in self.model.parameters if p.null is not None}
+        held = {parameter: nulls[parameter] for name, parameter in self.offered.items() if name not in names}
+        effects = tuple((name, effect(name)) for name in outside)
+        return System(self.model, effects, {**held, **(self.fixed or {})})
+
+    def problem(self, names: Collection[str], records: Sequence[Record] | None = None) -> Problem:
+        """Their least-squares problem; boxes follow from the fitted records."""
+        system = self.system(names)
+        boxes = [
+            p.within(*self.bounds[p.name], "linear" if self.bounds[p.name][0] <= 0 else p.scaling)
+            if self.bounds and p.name in self.bounds
+            else p
+            for p in system.box(self.records)
+        ]
+        return Problem(system, tuple(self.records if records is None else records), Space(tuple(boxes)), LOSSES["rmse"])
+
+    def candidates(self) -> tuple[tuple[str, ...], dict[str, str]]:
+        """Names of the effects that can be tried, and of those that cannot, with the reason."""
+        possible, impossible = [], {}
+        for name in sorted({*registry.names("effects"), *IN_LOOP, *self.offered} - {"record-offset", *self.own}):
+            if name in self.offered:
+                possible.append(name)
+            elif name in IN_LOOP:
+                impossible[name] = "this model does not offer it: it acts inside the state equation"
+            elif fault := registry.load("effects", name).fault:
+                impossible[name] = f"broken: {fault}"
+            elif reason := effect(name).inapplicable(self.records):
+                impossible[name] = reason
+            elif name != "bias":
+                possible.append(name)
+        return tuple(possible), impossible
+
+
+def effect(name: str) -> Effect:
+    """An effect with its default settings."""
+    built: Effect = registry.build("effects", name)
+    return built

@@ -1,0 +1,208 @@
+"""One hypothesis, fitted: a set of effects around the model, with its errors fitted and left out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.random import default_rng
+from numpy.typing import NDArray
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.cross_validation import Blocks, cut, left_out_errors
+from hysteresis_bench.diagnosis.fit_system import descend, errors, jacobian, point_of, split, values_of
+from hysteresis_bench.diagnosis.nested import SEARCHED, NestedTest, nested_test
+from hysteresis_bench.diagnosis.stack import Stack, effect
+from hysteresis_bench.identify import generator, search, shared_start
+from hysteresis_bench.objective import Problem
+from hysteresis_bench.parameters import Parameter
+
+BUDGET = 1500
+"""Evaluations of each of the searches for the bare model."""
+
+SEARCHES = 2
+GRID = 48
+"""Values of an effect's own parameters that are screened, in one swarm."""
+
+CHAINS = 4
+"""Of them followed downhill."""
+
+FIRST, LAST = 8, 40
+"""Iterations of all chains, then of the best one."""
+
+RANDOM = 192
+"""Points screened for another basin of attraction after an effect has joined."""
+
+EDGE = 1e-3
+"""A parameter within this share of its box from an edge lies at its bound."""
+
+
+@dataclass(frozen=True, eq=False)
+class Trial:
+    """names : the effects;  values : by parameter's name, in units
+    residuals, left_out : (scored samples,), measured minus simulated: of the fit, and of samples left out of it
+    at_bound : parameters at an edge of their box that does not mean "off"
+    """
+
+    names: frozenset[str]
+    values: Mapping[str, float]
+    residuals: NDArray
+    left_out: NDArray
+    at_bound: tuple[str, ...]
+
+    @property
+    def rmse(self) -> float:
+        return float(np.sqrt(np.mean(self.residuals**2)))
+
+    @property
+    def cv_rmse(self) -> float:
+        return float(np.sqrt(np.mean(self.left_out**2)))
+
+
+@dataclass(frozen=True, eq=False)
+class Bench:
+    """Fits hypotheses to the fitted records; the same question always gets the same answer."""
+
+    stack: Stack
+    seed: int = 0
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        return cut(self.stack.records)
+
+    def bare(self, names: frozenset[str]) -> Trial:
+        """A global search, as nothing is known yet."""
+        problem = self.stack.problem(names)
+        optimizer = registry.build("optimizers", "pso-constriction")
+        starts = []
+        for run in range(SEARCHES if problem.space.dimension else 0):
+            start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
+            found = search(problem, optimizer, BUDGET, start, generator(self.seed, "diagnosis", run))
+            starts.append(problem.space.to_unit(found.values[:, None])[:, 0])
+        centre = np.full((problem.space.dimension, 1), 0.5)
+        points = np.column_stack([*starts, self._random(problem, centre)])
+        return self._finished(problem, names, points)
+
+    def extended(self, trial: Trial, name: str) -> Trial:
+        """With one effect more, from several values of its own parameters."""
+        names = trial.names | {name}
+        problem = self.stack.problem(names)
+        new = [p for p in problem.space.parameters if p.name not in trial.values]
+        grid = [*_grid(new), *self._proposed(trial, name)]
+        points = np.column_stack([point_of(problem, {**trial.values, **values}) for values in grid])
+        if new:
+            points = points[:, self._promising(trial, problem, points)]
+        return self._finished(problem, names, points)
+
+    def reduced(self, trial: Trial, name: str) -> Trial:
+        """With one effect less."""
+        names = trial.names - {name}
+        problem = self.stack.problem(names)
+        known = {
+            **trial.values,
+            **{p.name: 0.5 * (p.lower + p.upper) for p in problem.space.parameters if p.name not in trial.values},
+        }
+        point = point_of(problem, known)[:, None]
+        return self._finished(problem, names, np.column_stack([point, self._random(problem, point)[:, :2]]))
+
+    def refitted(self, trial: Trial) -> Trial:
+        """From other starts as well: what an effect explained may have been bent into the others' values."""
+        problem = self.stack.problem(trial.names)
+        point = point_of(problem, trial.values)[:, None]
+        found = self._finished(problem, trial.names, np.column_stack([point, self._random(problem, point)]))
+        return found if found.rmse < trial.rmse else trial
+
+    def test(self, smaller: Trial, larger: Trial) -> NestedTest:
+        """Is the larger one better than chance?"""
+        known, all_ = (len(self.stack.problem(trial.names).space.names) for trial in (smaller, larger))
+        offsets = len(self.stack.records)
+        count = [offsets if "record-offset" in trial.names else 0 for trial in (smaller, larger)]
+        nuisance = {"record-offset", "bias"} >= larger.names ^ smaller.names
+        added = all_ - known + count[1] - count[0]
+        parts = [split(trial.residuals, self.stack.records) for trial in (smaller, larger)]
+        return nested_test(*parts, max(added, 1) + (0 if nuisance else SEARCHED), all_ + count[1])
+
+    def _proposed(self, trial: Trial, name: str) -> list[dict[str, float]]:
+        """What the effect itself proposes, from the residuals."""
+        if name in self.stack.offered or not hasattr(effect(name), "starts"):
+            return []
+        residuals = split(trial.residuals, self.stack.records)
+        proposals = effect(name).starts(self.stack.records, residuals)  # type: ignore[attr-defined]
+        return [{f"{name}.{key}": value for key, value in proposal.items()} for proposal in proposals]
+
+    def _promising(self, trial: Trial, problem: Problem, points: NDArray) -> NDArray:
+        """Columns that leave least once the known parameters have followed to first order, unlike each other."""
+        known = self.stack.problem(trial.names)
+        slopes = jacobian(known, point_of(known, trial.values)[:, None])[1][:, 0] if trial.values else None
+        left = errors(problem, points)
+        if slopes is not None and slopes.shape[1]:
+            basis = np.linalg.svd(slopes, full_matrices=False)[0]
+            left = left - basis @ (basis.T @ left)
+        order = np.argsort(np.einsum("ij,ij->j", left, left), kind="stable")
+        chosen: list[int] = [0]
+        for column in order:
+            if len(chosen) == CHAINS + 1:
+                break
+            apart = np.max(np.abs(points[:, chosen] - points[:, [column]]), axis=0)
+            if np.all(apart > 0.05):
+                chosen.append(int(column))
+        return np.array(chosen)
+
+    def _random(self, problem: Problem, around: NDArray) -> NDArray:
+        """The best of random points: anywhere, and with some of the parameters as they are."""
+        dimension = problem.space.dimension
+        rng = default_rng(self.seed)
+        points = rng.random((dimension, RANDOM))
+        points[:, RANDOM // 2 :] = np.where(
+            rng.random((dimension, RANDOM // 2)) < 0.5, points[:, RANDOM // 2 :], around
+        )
+        return points[:, np.argsort(problem.squares(points), kind="stable")[:CHAINS]]
+
+    def _finished(self, problem: Problem, names: frozenset[str], starts: NDArray) -> Trial:
+        points, squares = descend(problem, starts, iterations=FIRST)
+        best = points[:, np.argsort(squares, kind="stable")[:2]]
+        points, squares = descend(problem, best, iterations=FIRST)
+        points, squares = descend(problem, points[:, [int(np.argmin(squares))]], iterations=LAST)
+        point = points[:, 0]
+        return Trial(
+            names,
+            values_of(problem, point),
+            errors(problem, points)[:, 0],
+            left_out_errors(problem, point, self.blocks),
+            tuple(p.name for p, x in zip(problem.space.parameters, point, strict=True) if _at_bound(p, x)),
+        )
+
+
+def _at_bound(parameter: Parameter, x: float) -> bool:
+    if EDGE < x < 1.0 - EDGE:
+        return False
+    edge = parameter.lower if x <= EDGE else parameter.upper
+    off = parameter.null is not None and (edge == parameter.null or (parameter.scaling == "log" and x <= EDGE))
+    return not off
+
+
+def _grid(parameters: list[Parameter]) -> list[dict[str, float]]:
+    """Switched off; then values spread over the box, those of a linear switch denser towards its null."""
+    from scipy.stats.qmc import Halton
+
+    off = {p.name: _inside(p) if p.null is None else float(np.clip(p.null, p.lower, p.upper)) for p in parameters}
+    if not parameters:
+        return [{}]
+    spread = Halton(len(parameters), scramble=False).random(GRID + 1)[1:]
+    return [off, *({p.name: _at(p, x) for p, x in zip(parameters, row, strict=True)} for row in spread)]
+
+
+def _inside(p: Parameter) -> float:
+    return float(np.sqrt(p.lower * p.upper)) if p.scaling == "log" else 0.5 * (p.lower + p.upper)
+
+
+def _at(p: Parameter, x: float) -> float:
+    if p.scaling == "log":
+        return float(p.lower * (p.upper / p.lower) ** x)
+    if p.null is None:
+        return p.lower + x * (p.upper - p.lower)
+    below = max(p.null - p.lower, 0.0) / (p.upper - p.lower)
+    edge, share = (p.lower, (below - x) / below) if x < below else (p.upper, (x - below) / (1.0 - below))
+    return float(p.null + (edge - p.null) * 10.0 ** (3.0 * (share - 1.0)))
