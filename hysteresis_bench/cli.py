@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -44,7 +45,10 @@ def _escaped(text: str) -> str:
 
 
 def _console() -> Console:
-    return Console(soft_wrap=False)
+    console = Console()
+    if not console.is_terminal and "COLUMNS" not in os.environ:
+        console.width = 120  # a file or a pipe has no width of its own
+    return console
 
 
 @click.group(cls=Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
@@ -64,10 +68,12 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
     from hysteresis_bench.progress import progress_bar
     from hysteresis_bench.report import write_report
     from hysteresis_bench.report.console import print_summary
+    from hysteresis_bench.report.published import check_published_beside
     from hysteresis_bench.study.results import FINISHED, read_results
     from hysteresis_bench.study.run import run_study
 
     console = _console()
+    check_published_beside(study)
     try:
         with progress_bar(console) as tell:
             results_folder = run_study(study, trials=trials, jobs=jobs, out=out, tell=tell)

@@ -25,7 +25,9 @@ def print_summary(results: Results, console: Console) -> None:
         table.add_column("optimizer", no_wrap=True)
         for heading in ("median fitness", "relative RMS", "success", "evals to success", "time", "failed"):
             table.add_column(heading, justify="right")
-        table.add_column("against best")
+        if not (tell := len(problem.trials) >= stats.ENOUGH):
+            table.caption = f"against each other: {stats.TOO_FEW} ({stats.ENOUGH} are needed)"
+        table.add_column("against best" if tell else "")
         for _, row in summary[summary["problem"] == problem.name].iterrows():
             p = probability(row["p_best"])
             verdict = row["verdict_best"]
@@ -37,7 +39,7 @@ def print_summary(results: Results, console: Console) -> None:
                 whole(row["evaluations_to_success_median"]),
                 seconds(row["seconds_median"]),
                 str(row["failed"]) if row["failed"] else NONE,
-                verdict if p == NONE or verdict == stats.SAME else f"{verdict}, p {p}",
+                "" if not tell else verdict if p == NONE or verdict == stats.SAME else f"{verdict}, p {p}",
                 style="bold" if row["optimizer"] == problem.winner else None,
             )
         console.print(table)

@@ -42,7 +42,7 @@ def write_fit_page(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame
         title=fit["title"],
         kicker=_kicker(fit),
         answer=list(filter(None, [_grade(fit["records"]), fit.get("agreement"), _left_out(responses)])),
-        warnings=[*fit.get("warnings", ()), *_bound_warnings(fit["parameters"])],
+        warnings=fit.get("warnings", ()),
         parameters=_parameters(fit["parameters"]),
         errors=_errors(fit["records"], fit.get("units", {})),
         loops=loops,
@@ -84,14 +84,6 @@ def _grade(records: Sequence[Mapping[str, Any]]) -> str:
 def _left_out(responses: pd.DataFrame) -> str:
     count = responses["record"].nunique() if len(responses) else 0
     return f"The figures show the first {MOST} of {count} records." if count > MOST else ""
-
-
-def _bound_warnings(parameters: Sequence[Mapping[str, Any]]) -> list[str]:
-    at = [str(parameter["name"]) for parameter in parameters if parameter.get("at_bound")]
-    if not at:
-        return []
-    what = "lies at a bound of its" if len(at) == 1 else "lie at bounds of their"
-    return [f"{', '.join(at)} {what} search box: the best value may lie outside."]
 
 
 def _parameters(parameters: Sequence[Mapping[str, Any]]) -> Table:

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.study_file import read_study
 
 Kind = Literal["contradiction", "misprint", "omission", "consequence"]
 
@@ -116,3 +119,14 @@ def check_published(raw: Mapping[str, Any], where: str = "published.toml") -> Pu
     except ValidationError as error:
         places = [(" ".join(str(part) for part in fault["loc"]), fault["msg"]) for fault in error.errors()]
         raise UserError(where, [f"{place}: {message}." for place, message in places]) from None
+
+
+def check_published_beside(study: Path) -> None:
+    """Check the published file that a study names, before an hour of trials. Raises UserError."""
+    named = read_study(study)[0].published
+    if named and (file := study.parent / named).is_file():
+        try:
+            raw = tomllib.loads(file.read_text(encoding="utf-8"))
+        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+            raise UserError(str(file), f"is not valid TOML: {error}.") from None
+        check_published(raw, str(file))

@@ -10,7 +10,7 @@ import pandas as pd
 from hysteresis_bench import stats
 from hysteresis_bench.report.claims import FAILS, HOLDS, Judged
 from hysteresis_bench.report.page import listed, number, percent, probability, share
-from hysteresis_bench.report.summary import Problem
+from hysteresis_bench.report.summary import EQUAL, Problem
 
 
 def answer(problems: list[Problem], summary: pd.DataFrame, judged: list[Judged]) -> list[str]:
@@ -40,6 +40,8 @@ def _ratio(problem: Problem) -> str:
         return ""
     ratio = theirs / ours
     by = f"{number(ratio, 3)} times lower" if ratio >= 1.5 else f"{percent(1 - ours / theirs, 2)} lower"
+    if max(ratio, 1 / ratio) < EQUAL:
+        return f"; the same as the reference {problem.reference}"
     return f"; {by} than the reference {problem.reference}" if ratio > 1.0 else ""
 
 
@@ -49,7 +51,7 @@ def _apart(problem: Problem) -> str:
         return "Nobody else was run."
     if len(problem.trials) < stats.ENOUGH:
         return (
-            f"With {len(problem.trials)} trials this describes what happened and proves nothing: {stats.TOO_FEW} the "
+            f"With {len(problem.trials)} trial{'s' * (len(problem.trials) != 1)} this describes what happened and proves nothing: {stats.TOO_FEW} the "
             f"optimizers apart ({stats.ENOUGH} are needed)."
         )
     same = problem.tied_with_winner

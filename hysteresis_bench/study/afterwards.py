@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from hysteresis_bench.identifiability import analyse, profile
 from hysteresis_bench.identify import polish
 from hysteresis_bench.study.problems import Built
+from hysteresis_bench.study.recovery import recovery
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import Study
 
@@ -41,7 +42,8 @@ def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
 def identifiability(study: Study, trials: pd.DataFrame, built: Mapping[str, Built]) -> dict[str, Any]:
     """Per problem, at the polished best of all trials: rank, standard errors, sentences, profiles.
 
-    An absent number (a parameter that the data cannot tell) is None.
+    An absent number (a parameter that the data cannot tell) is None. Where the truth is known, "recovery" says
+    how far from it every trial ended.
     """
     profiled = {spec.name: spec.profile for spec in study.problem}
     told: dict[str, Any] = {}
@@ -65,6 +67,9 @@ def identifiability(study: Study, trials: pd.DataFrame, built: Mapping[str, Buil
             "sentences": list(analysis.sentences()),
             "profiles": [_profile(of, name, values) for name in profiled[problem]],
         }
+    for problem in told:
+        if found := recovery(trials[trials["problem"] == problem], built[problem]):
+            told[problem]["recovery"] = found
     return told
 
 

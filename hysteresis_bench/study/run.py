@@ -27,7 +27,7 @@ from hysteresis_bench.study.study_file import Study, check_study, read_study
 from hysteresis_bench.study.trial import Ticket, run_trial, seed_key
 
 LOCK = ".lock"
-PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "seaborn", "pebble")
+PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "matplotlib", "pebble")
 
 
 @dataclass(frozen=True)
@@ -58,7 +58,8 @@ def run_study(
     built = {spec.name: build_problem(spec, study.seed, path.parent) for spec in study.problem}
     folder.mkdir(parents=True, exist_ok=True)
     with _alone(folder):
-        _describe(folder, study, text, path)
+        units = {name: dict(one.dataset.units) for name, one in built.items()}
+        _describe(folder, study, text, path, units)
         with Store(folder) as store:
             store.begin(study.title)
             _run_missing(store, study, path, trials or study.trials, jobs or os.cpu_count() or 1, tell)
@@ -100,9 +101,9 @@ def _run_missing(
         tell(Progress(done, len(everything), outcome))
 
 
-def _describe(folder: Path, study: Study, text: str, path: Path) -> None:
+def _describe(folder: Path, study: Study, text: str, path: Path, units: dict[str, dict[str, str]]) -> None:
     """Write what the study is; raises UserError where the folder belongs to another one."""
-    provenance = _provenance(study, path)
+    provenance = _provenance(study, path) | {"units": units}
     if (folder / STUDY).is_file():
         before = check_study(tomllib.loads((folder / STUDY).read_text(encoding="utf-8")), str(folder / STUDY))
         old = json.loads((folder / PROVENANCE).read_text(encoding="utf-8"))

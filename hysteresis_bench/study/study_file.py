@@ -49,6 +49,8 @@ class ProblemSpec(_Strict):
     bounds : replaces the model's own box, parameter by parameter; "data" derives the rest from the data
     fixed : parameters that are known: not searched
     profile : parameters whose profile likelihood the report shows
+    optimizers : labels of those that run on this problem; all where none is named
+    truth : the parameters behind the data, where they are known: the report tells who recovers them
     """
 
     name: str
@@ -66,6 +68,8 @@ class ProblemSpec(_Strict):
     bounds: dict[str, tuple[float, float]] = {}
     fixed: dict[str, float] = {}
     profile: list[str] = []
+    optimizers: list[str] = []
+    truth: dict[str, float] = {}
     skip: Annotated[float, BeforeValidator(duration)] | None = None
     settle: bool = False
 
@@ -76,6 +80,28 @@ class ProblemSpec(_Strict):
         if self.rig and not self.fitted:
             raise ValueError('fitted = ["..."] must name at least one experiment of the rig')
         return self
+
+
+class StageSpec(_Strict):
+    """The linear section behind a static one, fitted after a problem has found the static one.
+
+    after : the problem; its rig or data are the stage's too
+    optimizers : labels whose best trial is taken further; the best trial of all is added
+    model, settings : the whole; what it does not share with `fit` is held at what the trial found
+    fit : gain, damping and stiffness of the linear section, by the model's names
+    fitted, check : experiments or records to fit and to check the whole model on
+    beside : a problem that finds all parameters at once, for comparison
+    """
+
+    name: str
+    after: str
+    optimizers: list[str] = []
+    model: str
+    settings: dict[str, Any] = {}
+    fit: tuple[str, str, str]
+    fitted: list[str] = Field(min_length=1)
+    check: list[str] = []
+    beside: str | None = None
 
 
 class Study(_Strict):
@@ -91,6 +117,7 @@ class Study(_Strict):
     notes: list[str] = []
     problem: list[ProblemSpec] = Field(min_length=1)
     optimizer: list[OptimizerSpec] = Field(min_length=1)
+    stage: list[StageSpec] = []
 
     @property
     def labels(self) -> list[str]:
@@ -100,8 +127,9 @@ class Study(_Strict):
         return spec.budget or self.budget
 
     def identity(self) -> dict[str, Any]:
-        """What makes it the same study: all but the trials and the list of optimizers."""
-        return self.model_dump(mode="json", exclude={"trials", "optimizer"})
+        """What makes it the same study: all but the trials, the optimizers, and what follows the trials."""
+        afterwards: dict[str, Any] = {"trials": True, "optimizer": True, "stage": True}
+        return self.model_dump(mode="json", exclude=afterwards | {"problem": {"__all__": {"optimizers", "truth"}}})
 
 
 def read_study(path: Path) -> tuple[Study, str]:
@@ -142,7 +170,11 @@ def _place(location: tuple[int | str, ...]) -> str:
 def _sentence(fault: Any) -> str:
     location = fault["loc"]
     if fault["type"] == "extra_forbidden":
-        owners: dict[str, type[BaseModel]] = {"problem": ProblemSpec, "optimizer": OptimizerSpec}
+        owners: dict[str, type[BaseModel]] = {
+            "problem": ProblemSpec,
+            "optimizer": OptimizerSpec,
+            "stage": StageSpec,
+        }
         owner = owners.get(str(location[0]), Study)
         known = owner.model_fields if len(location) > 1 or owner is Study else Study.model_fields
         place = _place(location[:-1])
@@ -159,7 +191,9 @@ def _plugin_faults(raw: dict[str, Any]) -> list[str]:
             faults = registry.faults("optimizers", spec["plugin"], spec.get("settings", {}))
             found += [f"[[optimizer]] {number}: {fault}" for fault in faults]
     for number, spec in enumerate(_tables(raw, "problem"), 1):
-        found += [f"[[problem]] {number}: {fault}" for fault in _problem_faults(spec)]
+        found += [f"[[problem]] {number}: {fault}" for fault in _problem_faults(spec) + _label_faults(spec, raw)]
+    for number, spec in enumerate(_tables(raw, "stage"), 1):
+        found += [f"[[stage]] {number}: {fault}" for fault in _stage_faults(spec, raw)]
     return found
 
 
@@ -190,11 +224,46 @@ def _problem_faults(spec: dict[str, Any]) -> list[str]:
     return found
 
 
+def _label_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
+    labels = [str(each.get("label") or each.get("plugin")) for each in _tables(raw, "optimizer")]
+    wanted = [label for label in spec.get("optimizers", []) if label not in labels]
+    return [f'optimizers: no optimizer "{label}" in this study. {nearest(str(label), labels)}' for label in wanted]
+
+
+def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
+    problems = {str(each.get("name")): each for each in _tables(raw, "problem")}
+    found = _label_faults(spec, raw)
+    for key in ("after", "beside"):
+        if key in spec and spec[key] not in problems:
+            found.append(f'{key}: no problem "{spec[key]}". {nearest(str(spec[key]), problems)}')
+    source = {key: value for key, value in problems.get(str(spec.get("after")), {}).items() if key.startswith("rig")}
+    found += _problem_faults(source | {"fitted": spec.get("fitted", []), "held_out": spec.get("check", [])})
+    names, known = _parameter_names(spec), _parameter_names(problems.get(str(spec.get("after")), {}))
+    if not names:
+        return found + registry.faults("models", str(spec.get("model")), spec.get("settings", {}))
+    fit = [str(name) for name in spec.get("fit", [])]
+    found += [
+        f'fit: {spec["model"]} has no parameter "{name}". {nearest(name, names)}' for name in fit if name not in names
+    ]
+    for name in names:
+        if known and name not in (*fit, *known):
+            found.append(f'{name} of {spec["model"]} is neither in fit nor found by "{spec["after"]}".')
+    return found
+
+
+def _parameter_names(spec: dict[str, Any]) -> list[str]:
+    """The parameters of a problem's or a stage's model; none where it cannot be built."""
+    model, settings = spec.get("model"), spec.get("settings", {})
+    if not isinstance(model, str) or registry.faults("models", model, settings):
+        return []
+    return [parameter.name for parameter in registry.build("models", model, settings).parameters]
+
+
 def _bound_faults(spec: dict[str, Any]) -> list[str]:
     model = registry.build("models", spec["model"], spec.get("settings", {}))
     parameters = {parameter.name: parameter for parameter in model.parameters}
     found = []
-    for key in ("bounds", "fixed", "profile"):
+    for key in ("bounds", "fixed", "profile", "truth"):
         values = spec.get(key, {})
         for name in values if isinstance(values, (dict, list)) else ():
             if name not in parameters and "." not in name:
@@ -210,7 +279,12 @@ def _bound_faults(spec: dict[str, Any]) -> list[str]:
 
 def _doubles(study: Study) -> list[str]:
     found = []
-    for what, names in (("optimizer", study.labels), ("problem", [problem.name for problem in study.problem])):
+    for what, names in (
+        ("optimizer", study.labels),
+        ("problem", [problem.name for problem in study.problem]),
+        ("stage", [stage.name for stage in study.stage]),
+    ):
+        word = "label" if what == "optimizer" else "name"
         for name in sorted({name for name in names if names.count(name) > 1}):
-            found.append(f'two [[{what}]] are both called "{name}"; give one another label.')
+            found.append(f'two [[{what}]] are both called "{name}"; give one another {word}.')
     return found

@@ -326,7 +326,6 @@ def test_the_page_of_a_fit_says_how_good_it_is(tmp_path):
         "poor",
         "Two searches agree.",
         "a warning",
-        "k lies at a bound",
         "a note",
         "31.2",
         "A/m",
