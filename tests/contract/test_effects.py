@@ -87,6 +87,24 @@ def test_null_reproduces_the_model_bit_for_bit(name, uneven):
     assert np.array_equal(mixed[:, ::2], expected[:, ::2])
 
 
+@pytest.mark.parametrize(
+    "model", [name for name in registry.names("models") if not registry.load("models", name).fault]
+)
+@pytest.mark.parametrize("name", NAMES)
+def test_null_reproduces_every_model_bit_for_bit(name, model):
+    record = measured(121)
+    alone = System(registry.build("models", model))
+    rng = np.random.default_rng(3)
+    space = Space(alone.box([record]))
+    values = space.from_unit(rng.random((space.dimension, 5)))
+    around_it = replace(alone, effects=((name, built(name)),))
+    effect_values = drawn(name, record, 5)[2:]
+    for row, parameter in enumerate(built(name).parameters):
+        effect_values[row] = effect_values[row] if parameter.null is None else parameter.null
+    simulated = around_it.simulate(record.signal, np.vstack([values, effect_values]))
+    assert np.array_equal(simulated, alone.simulate(record.signal, values))
+
+
 @pytest.mark.parametrize("name", with_parameters)
 def test_off_null_it_changes_something(name):
     """With its switches at the far edge of the box, by a hundredth of the output's range at least."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from hysteresis_bench.contracts import Effect
@@ -30,7 +31,11 @@ class Asymmetry(Effect):
     parameters = (Parameter("curvature", -0.45, 0.45, "1/{input}", null=0.0, meaning="of the input's action"),)
 
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
-        return inner(signal.with_input(signal.input + p.curvature * signal.input**2))
+        if not np.any(p.curvature):  # the model sees the very input, still shared by the swarm
+            return inner(signal)
+        bent = p.curvature * signal.input**2
+        bent += signal.input
+        return inner(signal.with_input(bent))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Up to nine tenths of where the largest input would turn back."""

@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from hysteresis_bench.contracts import Effect
@@ -29,6 +30,8 @@ class Backlash(Effect):
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
         from hysteresis_bench.kernels.play import play
 
+        if not np.any(p.half_width):  # the model sees the very input, still shared by the swarm
+            return inner(signal)
         return inner(signal.with_input(play(signal.input, p.half_width)))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

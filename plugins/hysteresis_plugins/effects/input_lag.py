@@ -6,6 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
 from numpy.typing import NDArray
 
 from hysteresis_bench.contracts import Effect
@@ -32,7 +33,7 @@ class InputLag(Effect):
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
         from hysteresis_bench.kernels.lag import lag
 
-        if not signal.timed:
+        if not signal.timed or not np.any(p.time_constant):  # the model sees the very input, still shared
             return inner(signal)
         return inner(signal.with_input(lag(signal.time, signal.input, p.time_constant)))
 

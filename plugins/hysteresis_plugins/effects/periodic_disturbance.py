@@ -54,11 +54,12 @@ class PeriodicDisturbance(Effect):
     )
 
     def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.sinusoid import sinusoid
+
         output = inner(signal)
         if not signal.timed:
             return output
-        phase = 2.0 * np.pi * p.frequency * signal.time[:, None]
-        return output + (p.cosine * np.cos(phase) + p.sine * np.sin(phase))
+        return output + sinusoid(signal.time, p.cosine, p.sine, p.frequency)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Amplitudes up to half the range of the output; frequencies from three periods in the longest record
