@@ -224,10 +224,15 @@ def _problem_faults(spec: dict[str, Any]) -> list[str]:
     return found
 
 
+def _listed(spec: dict[str, Any], key: str) -> list[str]:
+    value = spec.get(key, [])
+    return [str(entry) for entry in value] if isinstance(value, list) else []
+
+
 def _label_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
     labels = [str(each.get("label") or each.get("plugin")) for each in _tables(raw, "optimizer")]
-    wanted = [label for label in spec.get("optimizers", []) if label not in labels]
-    return [f'optimizers: no optimizer "{label}" in this study. {nearest(str(label), labels)}' for label in wanted]
+    wanted = [label for label in _listed(spec, "optimizers") if label not in labels]
+    return [f'optimizers: no optimizer "{label}" in this study. {nearest(label, labels)}' for label in wanted]
 
 
 def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
@@ -237,11 +242,11 @@ def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
         if key in spec and spec[key] not in problems:
             found.append(f'{key}: no problem "{spec[key]}". {nearest(str(spec[key]), problems)}')
     source = {key: value for key, value in problems.get(str(spec.get("after")), {}).items() if key.startswith("rig")}
-    found += _problem_faults(source | {"fitted": spec.get("fitted", []), "held_out": spec.get("check", [])})
+    found += _problem_faults(source | {"fitted": _listed(spec, "fitted"), "held_out": _listed(spec, "check")})
     names, known = _parameter_names(spec), _parameter_names(problems.get(str(spec.get("after")), {}))
     if not names:
         return found + registry.faults("models", str(spec.get("model")), spec.get("settings", {}))
-    fit = [str(name) for name in spec.get("fit", [])]
+    fit = _listed(spec, "fit")
     found += [
         f'fit: {spec["model"]} has no parameter "{name}". {nearest(name, names)}' for name in fit if name not in names
     ]
