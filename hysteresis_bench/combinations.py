@@ -7,9 +7,10 @@ product, and where the model's form is the reason, they are small integers.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
+from math import prod
 from typing import Literal
 
 import numpy as np
@@ -28,6 +29,12 @@ class Combination:
 
     kind: Literal["product", "sum"]
     weights: tuple[tuple[str, float], ...]
+
+    def value(self, values: Mapping[str, float]) -> float:
+        """What the combination comes to; values : by name, in units."""
+        if self.kind == "sum":
+            return sum(weight * values[name] for name, weight in self.weights)
+        return prod(values[name] ** weight for name, weight in self.weights)
 
     def __str__(self) -> str:
         if self.kind == "sum":

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hysteresis_bench.combinations import Blindness, blind_groups, listed
+from hysteresis_bench.combinations import Blindness, Combination, blind_groups, listed
 from hysteresis_bench.objective import Problem
 
 STEP = np.finfo(float).eps ** (1 / 3)
@@ -55,6 +55,13 @@ class Identifiability:
     noise_rms: float
     effective_samples: float
     blind: tuple[Blindness, ...]
+
+    @property
+    def acting(self) -> tuple[Combination, ...]:
+        """What the output depends on: the combinations of the blind groups, and every other parameter by itself."""
+        blind = {name for blindness in self.blind for name in blindness.names}
+        alone = tuple(Combination("product", ((name, 1.0),)) for name in self.names if name not in blind)
+        return tuple(combination for blindness in self.blind for combination in blindness.combinations) + alone
 
     def sentences(self) -> tuple[str, ...]:
         """What a user must know before believing the parameters; empty where all are well determined."""
