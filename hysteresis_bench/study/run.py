@@ -86,7 +86,7 @@ def _run_missing(
         Ticket(text, str(path.parent.resolve()), problem.name, label, trial)
         for trial in range(trials)
         for problem in study.problem
-        for label in study.labels
+        for label in problem.optimizers or study.labels
     ]
     present = store.keys()
     missing = [ticket for ticket in everything if ticket.key not in present]
