@@ -73,6 +73,11 @@ class Effect(ABC):
         """The constant that the effect adds to this record's output, (swarm,): relative errors leave it out."""
         return np.zeros(simulated.shape[1])
 
+    def starts(self, records: Sequence[Record], residuals: Sequence[NDArray]) -> list[dict[str, float]]:
+        """Where a fit may begin for the effect's own parameters, by name; residuals : measured minus simulated,
+        (scored samples,) a record. Empty where the box says enough."""
+        return []
+
     def remembered(self, offsets: Sequence[float]) -> Effect:
         """The effect as a fitted model keeps it; offsets : what it added to each of the fitted records."""
         return self
