@@ -107,7 +107,7 @@ def fit_records(
     except ValueError as error:
         raise UserError("fit", f"{error}.") from None
     model_settings = {"settings": settings or {}, "preparation": preparation}
-    fitted = _model(problem, values, analysis.standard_errors, dataset, ready, model, **model_settings)
+    fitted = fitted_model(problem, values, analysis.standard_errors, dataset, ready, model, **model_settings)
     parameters = _parameter_table(problem, fitted)
     records, responses = _record_tables(system, values, dataset, ready)
     agrees, agreement = _agreement(problem, found, losses)
@@ -206,7 +206,8 @@ def _agreement(problem: Problem, found: Sequence[NDArray], losses: Sequence[floa
             f"Two searches from other starts fit equally well but do NOT agree: their outputs differ by "
             f"{100 * apart:.2g} % of the range (RMS)."
         )
-    return True, f"Two searches from other starts agree (outputs within {100 * apart:.2g} % of the range)."
+    close = f"their outputs differ by {100 * apart:.2g} % of the range (RMS)" if apart > 1e-6 else "they found the same"
+    return True, f"Two searches from other starts agree: {close}."
 
 
 def _closing(gap: float, repeats: int) -> list[str]:
@@ -233,8 +234,7 @@ def _notes(space: Space, optimizer: str, budget: int, seed: int, repeats: int) -
         f"Two searches by {optimizer} from other starts, {budget} evaluations each, seed {seed}, each finished by a "
         f"local least-squares polish.{settled}",
         f"Search box: {box}.",
-        "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation; they "
-        "do not know of what the model lacks.",
+        "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation.",
     )
 
 
@@ -265,9 +265,14 @@ def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
     return pd.DataFrame(rows)
 
 
-def _model(
+def fitted_model(
     problem: Problem, values: NDArray, errors: NDArray, dataset: Dataset, ready: Dataset, model: str, **more: Any
 ) -> FittedModel:
+    """The model of a problem at `values` (dimension,), ready to predict and to be written.
+
+    errors : (dimension,) standard errors, inf where the data cannot tell
+    dataset : as measured;  ready : the same records as the model sees them
+    """
     system, units = problem.system, dataset.units
     offsets = np.array([[float(o[0]) for o in system.offsets(r, values[:, None])] for r in ready.fitted])
     remembered = {

@@ -106,7 +106,7 @@ def _parameters(parameters: Sequence[Mapping[str, Any]]) -> Table:
         "Identified values",
         ["Parameter", "Value", "Standard error", "Of the value", "Unit", "Remark"],
         rows,
-        note="Standard errors assume independent residuals of equal size; a model that lacks something has neither.",
+        note="Standard errors allow for correlated residuals; they do not know of what the model lacks.",
     )
 
 
