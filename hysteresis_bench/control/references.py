@@ -1,0 +1,102 @@
+"""What the output should do: the six signals of the PEA paper's Table 6, and a user's own from a CSV.
+
+The paper prints neither amplitudes nor durations; ours are below. Sines fade in over FADE_IN and are scored from
+then on, since no controller can start a mass at full speed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from hysteresis_bench.errors import UserError, nearest
+
+FADE_IN = 0.2  # s
+COMPLEX = (10.0, 20.0, 30.0, 40.0, 50.0)  # Hz
+
+
+@dataclass(frozen=True, eq=False)
+class Reference:
+    """A wanted output over time, both (samples,); the first `history` samples are followed, not scored."""
+
+    name: str
+    time: NDArray
+    position: NDArray
+    history: int = 0
+
+    @cached_property
+    def velocity(self) -> NDArray:
+        """By central differences."""
+        return np.gradient(self.position, self.time)
+
+    @cached_property
+    def acceleration(self) -> NDArray:
+        """By central differences of the positions either side."""
+        step = float(self.time[1] - self.time[0])
+        inner = np.diff(self.position, 2) / step**2
+        return np.concatenate([[0.0], inner, [0.0]])
+
+    @property
+    def delay_floor(self) -> float:
+        """RMS error of an output that is perfect but one sample late."""
+        late = self.position[self.history : -1] - self.position[self.history + 1 :]
+        return float(np.sqrt(np.mean(np.square(late))))
+
+
+def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]:
+    """The six signals; amplitude in the output's unit, rate in samples a second."""
+
+    def made(name: str, duration: float, shape: Callable[[NDArray], NDArray], fade_in: float = 0.0) -> Reference:
+        time = np.arange(round((duration + fade_in) * rate)) / rate
+        share = np.clip(time / fade_in, 0.0, 1.0) if fade_in else np.ones(time.size)
+        smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)  # no jump in velocity or acceleration
+        return Reference(name, time, amplitude * smooth * shape(time), round(fade_in * rate))
+
+    def sine(frequency: float) -> Callable[[NDArray], NDArray]:
+        return lambda time: np.sin(2.0 * np.pi * frequency * time)
+
+    return (
+        made("ramp", 2.0, lambda time: 1.0 - np.abs(time - 1.0)),  # up in 1 s, down in 1 s
+        made("damped-sine", 3.0, lambda time: 0.05 ** (time / 3.0) * np.sin(2.0 * np.pi * 2.0 * time)),  # 2 Hz
+        made("sine-10-hz", 0.5, sine(10.0), FADE_IN),
+        made("sine-30-hz", 0.5, sine(30.0), FADE_IN),
+        made("sine-50-hz", 0.5, sine(50.0), FADE_IN),
+        made("complex", 0.5, lambda time: np.mean([sine(f)(time) for f in COMPLEX], axis=0), FADE_IN),
+    )
+
+
+def read_trajectory(path: Path) -> tuple[NDArray, NDArray]:
+    """Time and wanted output from a CSV with the columns `time` and `output` (or `reference`), units in brackets.
+
+    Raises UserError naming file, row and column.
+    """
+    try:
+        frame = pd.read_csv(path)
+    except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise UserError(str(path), f"cannot be read as CSV: {error}.") from None
+    frame.columns = pd.Index([str(column).split("[")[0].strip().lower() for column in frame.columns])
+    wanted = "reference" if "reference" in frame else "output"
+    missing = [name for name in ("time", wanted) if name not in frame]
+    if missing:
+        raise UserError(str(path), [f'no column "{name}". {nearest(name, frame.columns)}' for name in missing])
+    faults = []
+    for name in ("time", wanted):
+        frame[name] = pd.to_numeric(frame[name], errors="coerce")
+        bad = np.nonzero(~np.isfinite(frame[name].to_numpy(dtype=float)))[0]
+        if bad.size:
+            faults.append(f'row {bad[0] + 2}, column "{name}": not a finite number ({bad.size} such values).')
+    time = frame["time"].to_numpy(dtype=float)
+    if not faults and time.size < 2:
+        faults.append("needs at least 2 samples.")
+    back = np.nonzero(np.diff(time) <= 0)[0]
+    if not faults and back.size:
+        faults.append(f'row {back[0] + 3}, column "time": time must strictly increase.')
+    if faults:
+        raise UserError(str(path), faults)
+    return time, frame[wanted].to_numpy(dtype=float)
