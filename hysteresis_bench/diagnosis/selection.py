@@ -14,10 +14,9 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.crew import Crew
+from hysteresis_bench.diagnosis.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.nested import NestedTest
-from hysteresis_bench.diagnosis.stack import OFFSETS
 from hysteresis_bench.diagnosis.trials import Bench, Trial
 
 LEVEL = 0.01
@@ -86,6 +85,13 @@ class Selection:
 
     def without(self, trial: Trial, name: str) -> Trial:
         return self._ask([("reduced", trial, name)], [trial.names - {name}])[0]
+
+    def with_each(self, trial: Trial, names: Sequence[str]) -> list[Trial]:
+        return self._ask([("extended", trial, name) for name in names], [trial.names | {name} for name in names])
+
+    def compared(self, smaller: Trial, larger: Trial) -> tuple[NestedTest, float]:
+        """The nested-model test, and by how many standard errors the larger system wins on blocks left out."""
+        return self.bench.test(smaller, larger), advantage(larger.left_out, smaller.left_out, self.bench.blocks)
 
     def needed(self, smaller: Trial, larger: Trial, candidates: int = 1) -> bool:
         """Does the larger system pass the three tests against the smaller?"""
@@ -168,18 +174,14 @@ class Selection:
         return [self.known[key] for key in names]
 
 
-def without_offset(selection: Selection, trial: Trial) -> Trial:
-    """The same effects with the simplest offset that the data accept: none, one, one a record."""
+def with_simplest_offset(selection: Selection, trial: Trial) -> Trial:
+    """The same effects with the simplest offset that the data accept: none, one for all records, one a record."""
     bench = selection.bench
-    bare = trial.names - set(OFFSETS)
-    none = bench.reduced(trial, "record-offset")
-    if not _offset_needed(bench, none, trial):
+    none = bench.refitted(bench.reduced(trial, "record-offset"))
+    count = len(selection.candidates)
+    if not selection.needed(none, trial, count):
         return none
     common = bench.extended(none, "bias")
-    if len(bench.stack.records) == 1 or not _offset_needed(bench, common, trial):
+    if len(bench.stack.records) == 1 or not selection.needed(common, trial, count):
         return common
-    return trial if bare != trial.names else none
-
-
-def _offset_needed(bench: Bench, smaller: Trial, larger: Trial) -> bool:
-    return bench.test(smaller, larger).p < LEVEL and advantage(larger.left_out, smaller.left_out, bench.blocks) > 1.0
+    return trial

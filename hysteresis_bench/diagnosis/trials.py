@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -114,6 +114,17 @@ class Bench:
         found = self._finished(problem, trial.names, np.column_stack([point, self._random(problem, point)]))
         return found if found.rmse < trial.rmse else trial
 
+    def polished(self, trial: Trial) -> NDArray:
+        """Values (dimension,) in units, from those of a trial that was fitted to thinned records."""
+        problem = self.stack.problem(trial.names)
+        point, _ = descend(problem, point_of(problem, trial.values)[:, None], iterations=LAST)
+        return problem.space.from_unit(point)[:, 0]
+
+    def errors(self, names: Collection[str], values: NDArray) -> NDArray:
+        """Measured minus simulated (scored samples,); values : (dimension,), in units."""
+        problem = self.stack.problem(names)
+        return errors(problem, problem.space.to_unit(values[:, None]))[:, 0]
+
     def test(self, smaller: Trial, larger: Trial) -> NestedTest:
         """Is the larger one better than chance?"""
         known, all_ = (len(self.stack.problem(trial.names).space.names) for trial in (smaller, larger))
@@ -121,15 +132,15 @@ class Bench:
         count = [offsets if "record-offset" in trial.names else 0 for trial in (smaller, larger)]
         nuisance = {"record-offset", "bias"} >= larger.names ^ smaller.names
         added = all_ - known + count[1] - count[0]
-        parts = [split(trial.residuals, self.stack.records) for trial in (smaller, larger)]
-        return nested_test(*parts, max(added, 1) + (0 if nuisance else SEARCHED), all_ + count[1])
+        less, more = (split(trial.residuals, self.stack.records) for trial in (smaller, larger))
+        return nested_test(less, more, max(added, 1) + (0 if nuisance else SEARCHED), all_ + count[1])
 
     def _proposed(self, trial: Trial, name: str) -> list[dict[str, float]]:
         """What the effect itself proposes, from the residuals."""
         if name in self.stack.offered or not hasattr(effect(name), "starts"):
             return []
         residuals = split(trial.residuals, self.stack.records)
-        proposals = effect(name).starts(self.stack.records, residuals)  # type: ignore[attr-defined]
+        proposals = effect(name).starts(self.stack.records, residuals)
         return [{f"{name}.{key}": value for key, value in proposal.items()} for proposal in proposals]
 
     def _promising(self, trial: Trial, problem: Problem, points: NDArray) -> NDArray:

@@ -1,0 +1,333 @@
+"""Diagnosis: fit a model, see what is left, name what is missing, refit, and report before and after."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from hysteresis_bench import registry
+from hysteresis_bench.accuracy import accuracy
+from hysteresis_bench.diagnosis.advice import Advice, advise
+from hysteresis_bench.diagnosis.crew import Crew
+from hysteresis_bench.diagnosis.fit_system import split
+from hysteresis_bench.diagnosis.memory import memory
+from hysteresis_bench.diagnosis.noise import noise, pooled_noise
+from hysteresis_bench.diagnosis.preparation import SETTLED, thinned, with_held_out
+from hysteresis_bench.diagnosis.residual_tests import residual_tests
+from hysteresis_bench.diagnosis.result import Candidate, Diagnosis, Stage, Step, Verdict
+from hysteresis_bench.diagnosis.selection import Selection, with_simplest_offset
+from hysteresis_bench.diagnosis.stack import OFFSETS, OUTER, Stack
+from hysteresis_bench.diagnosis.terms import Equation, find_terms
+from hysteresis_bench.diagnosis.ties import Tie, tie
+from hysteresis_bench.diagnosis.trials import Bench, Trial
+from hysteresis_bench.diagnosis.words import headline, warnings
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.fitting import fitted_model
+from hysteresis_bench.identifiability import analyse
+from hysteresis_bench.model_file import FittedModel, Preparation
+from hysteresis_bench.objective import Problem
+from hysteresis_bench.signals import Dataset, Record
+
+FINEST = 2e-4
+"""Share of the output's range below which an error is rounding and numerics, whatever the noise."""
+
+FOLLOWS = 0.5
+"""Share of the output's variance that the response to the input must explain before any effect is named."""
+
+REMAINS = 1.1
+"""RMSE over noise from which what is left matters."""
+
+TELLING = 0.03
+"""Share of the residual's variance from which a dependence matters."""
+
+FEWEST_SAMPLES = 20
+
+
+def diagnose(
+    dataset: Dataset,
+    model: str,
+    *,
+    settings: Mapping[str, Any] | None = None,
+    effects: Sequence[str] = (),
+    bounds: Mapping[str, tuple[float, float]] | None = None,
+    fixed: Mapping[str, float] | None = None,
+    seed: int = 0,
+    settle: bool = False,
+    input_offset: float = 0.0,
+    flip: bool = False,
+    jobs: int | None = None,
+) -> Diagnosis:
+    """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
+
+    effects : known to act, around the model from the beginning
+    jobs : processes; default: as many as cores, at most 4
+    Raises UserError telling every fault at once.
+    """
+    _check(dataset, model, settings or {}, effects)
+    preparation = Preparation(input_offset, flip)
+    seen = dataset.map(preparation)
+    seen = seen.map(lambda record: record.settled(SETTLED)) if settle else seen
+    ready, how = with_held_out(seen)
+    built = registry.build("models", model, settings)
+    full = Bench(Stack(built, ready.fitted, tuple(effects), bounds, fixed), seed)
+    bench = Bench(Stack(built, thinned(ready.fitted), tuple(effects), bounds, fixed), seed)
+    loud = pooled_noise(ready.fitted)
+    span = max(float(np.ptp(record.measured)) for record in ready.fitted)
+    floor = max(loud.floor, FINEST * span)
+    possible, impossible = bench.stack.candidates()
+    with Crew(bench, jobs or min(4, os.cpu_count() or 1)) as crew:
+        selection = Selection(bench, crew, floor, possible)
+        base = bench.bare(frozenset({"record-offset"}))
+        found = selection.run(base)
+        alone = not _follows(full.stack, found)
+        found = base if alone else found
+        final = with_simplest_offset(selection, found)
+        ties, rivals = _ties(selection, found)
+        steps = tuple(_step(selection, number) for number in range(len(selection.rounds)))
+        candidates = _candidates(selection, found, impossible, ties)
+        waterfall = _waterfall(selection, base, found)
+    offset = next((name for name in OFFSETS if name in final.names), "")
+    nuisance = frozenset({"record-offset"} & final.names)
+    bare = bench.bare(nuisance)
+    adopted = (*(label for label, _ in waterfall[1:]), *(["bias"] if offset == "bias" else []))
+    before = _stage(full, bare, ready)
+    after = before if final.names == bare.names else _stage(full, final, ready)
+    equation, remains = _left(ready.fitted, after, floor)
+    verdict: Verdict = "effect-found" if adopted else "no-effect-needed"
+    if remains or alone:
+        verdict = "unexplained-residual"
+    return Diagnosis(
+        model,
+        verdict,
+        headline(verdict, adopted, alone, before, after, loud, dataset.units),
+        adopted,
+        offset,
+        before,
+        after,
+        loud,
+        floor,
+        candidates,
+        steps,
+        (
+            (f"{model} alone", before.fitted.rmse),
+            *waterfall[1:-1],
+            *_last(waterfall, after, offset),
+            ("noise", loud.floor),
+        ),
+        ties,
+        _advice(bench, found, rivals, ready.fitted, floor, ties),
+        memory(ready.fitted),
+        equation,
+        _model(after, dataset, ready, model, settings or {}, preparation),
+        _responses(ready, before, after),
+        {"fitted": [r.name for r in ready.fitted], "held_out": [r.name for r in ready.held_out], "how": how},
+        warnings(built, ready.fitted, final, alone, loud, ties),
+        dataset.units,
+    )
+
+
+def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: Sequence[str]) -> None:
+    faults = registry.faults("models", model, settings)
+    for name in effects:
+        faults += registry.faults("effects", name, {})
+    for record in dataset.fitted:
+        if np.ptp(record.measured) == 0:
+            faults.append(f"record {record.name}: the output is constant; there is nothing to diagnose.")
+        elif record.measured.size < 2 * FEWEST_SAMPLES:
+            faults.append(
+                f"record {record.name}: {record.measured.size} samples are too few; {2 * FEWEST_SAMPLES} are needed."
+            )
+    if faults:
+        raise UserError("diagnose", faults)
+
+
+def _follows(stack: Stack, trial: Trial) -> bool:
+    """Does the response to the input, without what is merely added to it, explain the output?"""
+    names = trial.names - (set(OUTER) - {"record-offset"})
+    problem = stack.problem(names)
+    values = np.array([[trial.values[name]] for name in problem.space.names]).reshape(-1, 1)
+    added = stack.problem(trial.names)
+    whole = np.array([[trial.values[name]] for name in added.space.names]).reshape(-1, 1)
+    left = explained = 0.0
+    for record in stack.records:
+        response = problem.system.respond(record, values)[record.scored, 0]
+        error = record.measured - added.system.respond(record, whole)[record.scored, 0]
+        left += float(error @ error)
+        explained += float(np.sum((response - response.mean()) ** 2))
+    return explained > FOLLOWS / (1.0 - FOLLOWS) * left
+
+
+def _stage(bench: Bench, trial: Trial, ready: Dataset) -> Stage:
+    """A system fitted to all samples, and its errors on what was fitted and what was not."""
+    problem = bench.stack.problem(trial.names)
+    values = bench.polished(trial)
+    residuals = split(bench.errors(trial.names, values), ready.fitted)
+    system = problem.system
+    return Stage(
+        tuple(name for name, _ in system.effects),
+        problem,
+        values,
+        accuracy(system, ready.fitted, values),
+        accuracy(system, ready.held_out, values) if ready.held_out else None,
+        tuple(residual_tests(ready.fitted, residuals, [noise(record) for record in ready.fitted])),
+    )
+
+
+def _ties(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[Trial]]:
+    """Every adopted effect against what would do as well in its place."""
+    ties, rivals = [], []
+    for name in selection.adopted(found):
+        for rival, trial in selection.alternatives(found, name).items():
+            if selection.tied(found, trial):
+                apart = float(np.sqrt(np.mean((found.residuals - trial.residuals) ** 2)))
+                ties.append(tie(name, rival, apart))
+                rivals.append(trial)
+    return tuple(ties), rivals
+
+
+def _step(selection: Selection, number: int) -> Step:
+    at = selection.rounds[number]
+    return Step(
+        tuple(sorted(at.current.names)),
+        at.current.rmse,
+        {name: trial.cv_rmse for name, trial in at.trials.items()},
+        {name: test.p for name, test in at.tests.items()},
+        at.chosen,
+    )
+
+
+def _candidates(
+    selection: Selection, found: Trial, impossible: Mapping[str, str], ties: Sequence[Tie]
+) -> tuple[Candidate, ...]:
+    bench, rows = selection.bench, []
+    last = selection.rounds[-1]
+    for name in selection.candidates:
+        adopted = name in found.names
+        smaller, larger = (selection.without(found, name), found) if adopted else (last.current, last.trials.get(name))
+        if larger is None:
+            continue
+        test, gain = selection.compared(smaller, larger)
+        offered = bench.stack.offered.get(name)
+        rows.append(
+            Candidate(
+                name,
+                True,
+                adopted=adopted,
+                rmse=larger.rmse,
+                cv_rmse=larger.cv_rmse,
+                p=test.p,
+                advantage=gain,
+                parameters={
+                    key.removeprefix(f"{name}."): value
+                    for key, value in larger.values.items()
+                    if key.startswith(f"{name}.") or key == offered
+                },
+                at_bound=tuple(key for key in larger.at_bound if key.startswith(f"{name}.") or key == offered),
+                tied_with=tuple(
+                    one.rival if one.effect == name else one.effect for one in ties if name in (one.effect, one.rival)
+                ),
+            )
+        )
+    rows.sort(key=lambda row: (not row.adopted, row.cv_rmse))
+    return (*rows, *(Candidate(name, False, reason) for name, reason in impossible.items()))
+
+
+def _waterfall(selection: Selection, base: Trial, found: Trial) -> tuple[tuple[str, float], ...]:
+    """From the bare model, the effect that helps most first."""
+    current, steps = base, [("", base.rmse)]
+    while left := found.names - current.names:
+        names = sorted(left)
+        best = min(zip(selection.with_each(current, names), names, strict=True), key=lambda pair: pair[0].rmse)
+        current = best[0]
+        steps.append((best[1], current.rmse))
+    return tuple(steps)
+
+
+def _last(waterfall: Sequence[tuple[str, float]], after: Stage, offset: str) -> list[tuple[str, float]]:
+    """The last steps, with the error of the final fit to all samples."""
+    effects = [label for label, _ in waterfall[1:]][-1:]
+    if offset == "bias":
+        steps = [(label, rmse) for label, rmse in waterfall[1:]][-1:]
+        return [*steps, ("bias", after.fitted.rmse)]
+    return [(label, after.fitted.rmse) for label in effects]
+
+
+def _left(records: Sequence[Record], stage: Stage, floor: float) -> tuple[Equation | None, bool]:
+    """What describes the remaining residual, and whether it matters."""
+    scope = "all" if len(records) > 1 else records[0].name
+    tests = [test for test in stage.tests if test.record == scope and test.significant]
+    loud = stage.fitted.rmse > REMAINS * floor and any(test.name == "noise-floor" for test in tests)
+    telling = [
+        t for t in tests if t.share > TELLING and t.name not in ("noise-floor", "offset") and "scatter" not in t.name
+    ]
+    if stage.fitted.rmse <= floor or not (loud or telling):
+        return None, False
+    column = stage.values[:, None]
+    simulated = [stage.problem.system.respond(record, column)[:, 0] for record in records]
+    residuals = [record.measured - part[record.scored] for record, part in zip(records, simulated, strict=True)]
+    return find_terms(records, residuals, simulated), True
+
+
+def _advice(
+    bench: Bench, found: Trial, rivals: Sequence[Trial], records: Sequence[Record], floor: float, ties: Sequence[Tie]
+) -> Advice | None:
+    if not ties:
+        return None
+
+    def fitted(trial: Trial) -> tuple[Any, NDArray]:
+        problem = bench.stack.problem(trial.names)
+        return problem.system, np.array([trial.values[name] for name in problem.space.names])
+
+    first = ties[0].effect
+    together = [(one, trial) for one, trial in zip(ties, rivals, strict=True) if one.effect == first]
+    names = [first, *(one.rival for one, _ in together)]
+    return advise(fitted(found), [fitted(trial) for _, trial in together], records, floor, names)
+
+
+def _model(
+    stage: Stage,
+    dataset: Dataset,
+    ready: Dataset,
+    model: str,
+    settings: Mapping[str, Any],
+    preparation: Preparation,
+) -> FittedModel:
+    errors = _standard_errors(stage.problem, stage.values)
+    named = Dataset(ready.records, ready.held_out_names, dataset.hidden)
+    return fitted_model(
+        stage.problem, stage.values, errors, named, ready, model, settings=settings, preparation=preparation
+    )
+
+
+def _standard_errors(problem: Problem, values: NDArray) -> NDArray:
+    try:
+        return analyse(problem, values).standard_errors
+    except (ValueError, np.linalg.LinAlgError):
+        return np.full(values.size, np.inf)
+
+
+def _responses(ready: Dataset, before: Stage, after: Stage) -> pd.DataFrame:
+    parts = []
+    for record in ready.records:
+        simulated = [
+            stage.problem.system.respond(record, stage.values[:, None])[record.scored, 0] for stage in (before, after)
+        ]
+        parts.append(
+            pd.DataFrame(
+                {
+                    "record": record.name,
+                    "role": "held-out" if record.name in ready.held_out_names else "fitted",
+                    "time": record.time[record.scored],
+                    "input": record.input[record.scored],
+                    "output": record.measured,
+                    "before": simulated[0],
+                    "after": simulated[1],
+                }
+            )
+        )
+    return pd.concat(parts, ignore_index=True)

@@ -1,0 +1,67 @@
+"""A diagnosis in sentences."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from hysteresis_bench.contracts import Model
+from hysteresis_bench.diagnosis.noise import Noise
+from hysteresis_bench.diagnosis.result import Stage, Verdict
+from hysteresis_bench.diagnosis.ties import Tie
+from hysteresis_bench.diagnosis.trials import Trial
+from hysteresis_bench.signals import Record
+
+
+def headline(
+    verdict: Verdict,
+    adopted: Sequence[str],
+    alone: bool,
+    before: Stage,
+    after: Stage,
+    noise: Noise,
+    units: Mapping[str, str],
+) -> str:
+    """The verdict, with the error before and after."""
+    unit = "" if units.get("output", "1") == "1" else f" {units['output']}"
+    first, last = (stage.held_out or stage.fitted for stage in (before, after))
+    where = "on what was held out" if after.held_out else "on what was fitted"
+    if alone:
+        return "The output does not follow the input: the model explains less than half of it, and no effect is named."
+    if adopted:
+        named = listed(adopted)
+        found = f"The model lacks {named}: {where} the RMSE falls from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
+    else:
+        found = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
+    told = f"{found}; the noise is {noise.floor:.3g}."
+    if verdict == "unexplained-residual":
+        told += " Something is left that no effect explains."
+    return told
+
+
+def warnings(
+    model: Model, records: Sequence[Record], final: Trial, alone: bool, noise: Noise, ties: Sequence[Tie]
+) -> tuple[str, ...]:
+    """What a user must know before believing the names."""
+    told = list(model.advice(records)) if not final.names & {"bias", "record-offset"} else []
+    if alone:
+        told.append("The output does not follow the input; whatever would fit it is no diagnosis.")
+    for name in final.at_bound:
+        effect = name.rpartition(".")[0]
+        said = f"{name} lies at the edge of its box ({final.values[name]:.4g})"
+        told.append(f"{said}: {effect} may stand in for something else." if effect else f"{said}.")
+    if len(records) == 1:
+        told.append(
+            "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
+        )
+    if noise.floor == 0.0:
+        told.append(
+            "The data have no noise; differences below a few parts in ten thousand of the range are not judged."
+        )
+    for one in ties:
+        told.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")
+    return tuple(told)
+
+
+def listed(names: Sequence[str]) -> str:
+    """a, b and c"""
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
