@@ -69,24 +69,23 @@ def play(u: NDArray, radius: float) -> NDArray:
 def low_pass(time: NDArray, u: NDArray, constant: float) -> NDArray:
     """First-order lag of time constant `constant`, exact for a piecewise linear input, at rest with u_0.
 
+    u : (samples,) or (samples, columns) -> the same
     tau x' + x = u; over a step h with slope s the exact answer is
     x_1 = u_1 - s tau + (x_0 - u_0 + s tau) exp(-h / tau).
     """
-    steps = np.diff(time)
-    slopes = np.diff(u) / steps * constant
+    steps = np.diff(time).reshape((-1,) + (1,) * (u.ndim - 1))
+    rises = np.diff(u, axis=0) / steps * constant
     decays = np.exp(-steps / constant)
-    out = np.empty(u.size)
-    out[0] = lag = float(u[0])
-    if np.ptp(steps) < 1e-6 * steps[0]:
+    gains = u[1:] - rises + (rises - u[:-1]) * decays
+    out = np.array(u, dtype=float)
+    if np.ptp(steps) < 1e-6 * steps.flat[0]:
         from scipy.signal import lfilter
 
-        gains = u[1:] - slopes + (slopes - u[:-1]) * decays[0]
-        out[1:], _ = lfilter([1.0], [1.0, -decays[0]], gains, zi=[decays[0] * lag])
+        decay = float(decays.flat[0])
+        out[1:] = lfilter([1.0], [1.0, -decay], gains, axis=0, zi=decay * out[:1])[0]
         return out
-    values = u.tolist()
-    for i, (slope, decay) in enumerate(zip(slopes.tolist(), decays.tolist(), strict=True)):
-        lag = values[i + 1] - slope + (lag - values[i] + slope) * decay
-        out[i + 1] = lag
+    for i, gain in enumerate(gains):
+        out[i + 1] = gain + decays[i] * out[i]
     return out
 
 

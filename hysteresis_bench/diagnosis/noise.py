@@ -218,9 +218,12 @@ def period(u: NDArray) -> int | None:
     overlap = np.arange(u.size, 0, -1)
     correlation = np.fft.irfft(power)[: u.size] / overlap
     peaks = np.nonzero((correlation[1:-1] >= correlation[:-2]) & (correlation[1:-1] > correlation[2:]))[0] + 1
-    for lag in peaks[(peaks >= 8) & (peaks <= u.size // 3)][:50]:
-        if np.sqrt(np.mean((u[lag:] - u[:-lag]) ** 2)) < 0.01 * span:
-            return int(lag)
+    for peak in peaks[(peaks >= 8) & (peaks <= u.size // 3)][:50].tolist():
+        # The ends of the record shift the peak by a sample or two.
+        mismatches = {lag: float(np.sqrt(np.mean((u[lag:] - u[:-lag]) ** 2))) for lag in range(peak - 3, peak + 4)}
+        lag = min(mismatches, key=lambda lag: mismatches[lag])
+        if mismatches[lag] < 0.01 * span:
+            return lag
     return None
 
 

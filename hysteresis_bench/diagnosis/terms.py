@@ -101,8 +101,8 @@ class Term:
         """Unit of the coefficient: the output's over the column's."""
         output, u, time = (record.units.get(key, "1") for key in ("output", "input", "time"))
         column = {
-            "u2": f"{u}^2", "u3": f"{u}^3", "rate": f"({u}/{time})", "|rate|": f"({u}/{time})", "branch": "", "y": output,
-            "y2": f"{output}^2", "time": time, "log time": "", "cycle": "",
+            "u2": f"{u}^2", "u3": f"{u}^3", "rate": f"({u}/{time})", "|rate|": f"({u}/{time})", "branch": "", 
+            "y": output, "y2": f"{output}^2", "time": time, "log time": "", "cycle": "",
         }.get(self.kind, u)  # fmt: skip
         return output if column in ("", "1") else f"{output}/{column}"
 
