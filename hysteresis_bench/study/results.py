@@ -18,7 +18,7 @@ from hysteresis_bench.study.study_file import Study, check_study
 
 STUDY, PUBLISHED, PROVENANCE = "study.toml", "published.toml", "provenance.json"
 TRIALS, SUMMARY, RESPONSES, REPORT = "trials.csv", "summary.csv", "responses.csv", "report.html"
-IDENTIFIABILITY = "identifiability.json"
+IDENTIFIABILITY, STAGES = "identifiability.json", "stages.csv"
 
 STATUSES = ("done", "finished-early", "raised", "timed-out", "crashed", "out-of-memory")
 FINISHED = ("done", "finished-early")
@@ -35,9 +35,10 @@ class Results:
     trials : one row a trial with the columns of trials.csv, ordered by problem, optimizer, trial
     traces : (problem, optimizer, trial) -> best-so-far trace, of trials that have a result
     responses : problem, optimizer, record, role (fitted or held-out), time, input, output, simulated;
-        for the best trial of every optimizer on every problem
+        for the best trial of every optimizer on every problem, and for what was staged (problem: the stage's name)
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials, or its "fault"
+    stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
     """
 
     folder: Path
@@ -48,6 +49,7 @@ class Results:
     traces: Mapping[tuple[str, str, int], Trace]
     responses: pd.DataFrame
     identifiability: Mapping[str, Any]
+    stages: pd.DataFrame
 
 
 def read_results(folder: Path) -> Results:
@@ -56,7 +58,6 @@ def read_results(folder: Path) -> Results:
         raise UserError(str(folder), f"holds no results: there is no {STUDY} in it.")
     study = check_study(tomllib.loads((folder / STUDY).read_text(encoding="utf-8")), str(folder / STUDY))
     published = folder / PUBLISHED
-    responses = folder / RESPONSES
     with Store(folder) as store:
         trials, traces = store.table(), store.traces()
     return Results(
@@ -66,9 +67,14 @@ def read_results(folder: Path) -> Results:
         _json(folder / PROVENANCE),
         trials,
         traces,
-        pd.read_csv(responses) if responses.is_file() else pd.DataFrame(),
+        _csv(folder / RESPONSES),
         _json(folder / IDENTIFIABILITY),
+        _csv(folder / STAGES),
     )
+
+
+def _csv(path: Path) -> pd.DataFrame:
+    return pd.read_csv(path) if path.is_file() else pd.DataFrame()
 
 
 def _json(path: Path) -> Any:

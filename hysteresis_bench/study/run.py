@@ -15,13 +15,16 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+import pandas as pd
+
 from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.identify import seed_of
 from hysteresis_bench.study.afterwards import identifiability, responses
 from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import build_problem
-from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STUDY, TRIALS
+from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STAGES, STUDY, TRIALS
+from hysteresis_bench.study.stages import run_stages
 from hysteresis_bench.study.store import Outcome, Store
 from hysteresis_bench.study.study_file import Study, check_study, read_study
 from hysteresis_bench.study.trial import Ticket, run_trial, seed_key
@@ -65,7 +68,11 @@ def run_study(
             _run_missing(store, study, path, trials or study.trials, jobs or os.cpu_count() or 1, tell)
             table = store.table()
     table.to_csv(folder / TRIALS, index=False)
-    responses(table, built).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
+    staged, staged_responses = run_stages(study, table, built, path.parent)
+    if study.stage:
+        staged.to_csv(folder / STAGES, index=False)
+    parts = [responses(table, built), staged_responses]
+    pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
     told = json.dumps(identifiability(study, table, built), indent=1, allow_nan=False)
     (folder / IDENTIFIABILITY).write_text(told + "\n", encoding="utf-8")
     return folder

@@ -50,7 +50,6 @@ class ProblemSpec(_Strict):
     fixed : parameters that are known: not searched
     profile : parameters whose profile likelihood the report shows
     optimizers : labels of those that run on this problem; all where none is named
-    truth : the parameters behind the data, where they are known: the report tells who recovers them
     """
 
     name: str
@@ -69,7 +68,6 @@ class ProblemSpec(_Strict):
     fixed: dict[str, float] = {}
     profile: list[str] = []
     optimizers: list[str] = []
-    truth: dict[str, float] = {}
     skip: Annotated[float, BeforeValidator(duration)] | None = None
     settle: bool = False
 
@@ -88,7 +86,7 @@ class StageSpec(_Strict):
     after : the problem; its rig or data are the stage's too
     optimizers : labels whose best trial is taken further; the best trial of all is added
     model, settings : the whole; what it does not share with `fit` is held at what the trial found
-    fit : gain, damping and stiffness of the linear section, by the model's names
+    fit : gain, damping and stiffness of the linear section, by the model's names and in its order
     fitted, check : experiments or records to fit and to check the whole model on
     beside : a problem that finds all parameters at once, for comparison
     """
@@ -129,7 +127,7 @@ class Study(_Strict):
     def identity(self) -> dict[str, Any]:
         """What makes it the same study: all but the trials, the optimizers, and what follows the trials."""
         afterwards: dict[str, Any] = {"trials": True, "optimizer": True, "stage": True}
-        return self.model_dump(mode="json", exclude=afterwards | {"problem": {"__all__": {"optimizers", "truth"}}})
+        return self.model_dump(mode="json", exclude=afterwards | {"problem": {"__all__": {"optimizers"}}})
 
 
 def read_study(path: Path) -> tuple[Study, str]:
@@ -250,6 +248,8 @@ def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
     found += [
         f'fit: {spec["model"]} has no parameter "{name}". {nearest(name, names)}' for name in fit if name not in names
     ]
+    if sorted(fit, key=[*names, *fit].index) != fit:
+        found.append(f"fit: name the parameters in the model's order: {', '.join(names)}.")
     for name in names:
         if known and name not in (*fit, *known):
             found.append(f'{name} of {spec["model"]} is neither in fit nor found by "{spec["after"]}".')
@@ -268,7 +268,7 @@ def _bound_faults(spec: dict[str, Any]) -> list[str]:
     model = registry.build("models", spec["model"], spec.get("settings", {}))
     parameters = {parameter.name: parameter for parameter in model.parameters}
     found = []
-    for key in ("bounds", "fixed", "profile", "truth"):
+    for key in ("bounds", "fixed", "profile"):
         values = spec.get(key, {})
         for name in values if isinstance(values, (dict, list)) else ():
             if name not in parameters and "." not in name:
