@@ -137,7 +137,7 @@ class Bench:
 
     def _proposed(self, trial: Trial, name: str) -> list[dict[str, float]]:
         """What the effect itself proposes, from the residuals."""
-        if name in self.stack.offered or not hasattr(effect(name), "starts"):
+        if name in self.stack.offered:
             return []
         residuals = split(trial.residuals, self.stack.records)
         proposals = effect(name).starts(self.stack.records, residuals)

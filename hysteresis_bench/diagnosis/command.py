@@ -1,0 +1,101 @@
+"""The command `diagnose`: what the model lacks, in the terminal and as files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from hysteresis_bench.diagnosis.result import Diagnosis
+
+SHOWN = 8
+"""Tests and sentences of a kind that still fit a terminal; the files have all."""
+
+
+@click.command()
+@click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option("--model", required=True, help="A registered model; see `list models`.")
+@click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
+@click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
+@click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
+@click.option("--flip", is_flag=True, help="Change the sign of the input.")
+@click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored.")
+@click.option("--settle", is_flag=True, help="Repeat closed loops before scoring.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
+@click.option("--seed", type=int, default=0, show_default=True)
+def diagnose(
+    data: Sequence[Path],
+    model: str,
+    held_out: Sequence[str],
+    effects: Sequence[str],
+    input_offset: float,
+    flip: bool,
+    skip: float | None,
+    settle: bool,
+    jobs: int | None,
+    out: Path | None,
+    seed: int,
+) -> None:
+    """Find what the model lacks in DATA.csv ...: the missing effect, the error before and after."""
+    from rich.console import Console
+
+    from hysteresis_bench import load
+    from hysteresis_bench.diagnosis.diagnose import diagnose as find
+    from hysteresis_bench.diagnosis.diagnosis_file import write_diagnosis
+
+    dataset = load(*data, held_out=held_out, skip=skip)
+    found = find(
+        dataset, model, effects=effects, input_offset=input_offset, flip=flip, settle=settle, seed=seed, jobs=jobs
+    )
+    console = Console(soft_wrap=False)
+    print_diagnosis(found, console)
+    path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
+    console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
+
+
+def print_diagnosis(found: Diagnosis, console: Console) -> None:
+    """The verdict, before and after, the candidates, the tests in words, the advice."""
+    from rich.markup import escape
+    from rich.table import Table
+
+    colour = {"effect-found": "green", "no-effect-needed": "green", "unexplained-residual": "yellow"}[found.verdict]
+    console.print(f"[bold {colour}]{found.verdict}[/]  {escape(found.headline)}", highlight=False)
+    console.print(escape(found.memory.words), highlight=False, style="dim")
+
+    table = Table("", "fitted", "held out", title="RMSE", title_justify="left", box=None, pad_edge=False)
+    for label, stage in (("before", found.before), ("after", found.after)):
+        table.add_row(label, f"{stage.fitted.rmse:.4g}", f"{stage.held_out.rmse:.4g}" if stage.held_out else "")
+    table.add_row("noise", f"{found.noise.floor:.4g}", "")
+    console.print(table)
+
+    table = Table("effect", "", "RMSE", "left out", "p", "tied with", box=None, pad_edge=False)
+    for row in (row for row in found.candidates if row.applicable):
+        mark = "adopted" if row.adopted else "at its bound" if row.at_bound else ""
+        numbers = f"{row.rmse:.4g}", f"{row.cv_rmse:.4g}", f"{row.p:.2g}"
+        table.add_row(row.effect, mark, *numbers, ", ".join(row.tied_with), style="bold" if row.adopted else "")
+    console.print(table)
+    for row in (row for row in found.candidates if not row.applicable):
+        console.print(f"{row.effect}: not applicable: {escape(row.reason)}", highlight=False, style="dim")
+
+    table = Table("parameter", "value", "standard error", "unit", box=None, pad_edge=False)
+    for name, estimate in found.model.parameters.items():
+        error = "" if estimate.standard_error is None else f"{estimate.standard_error:.2g}"
+        table.add_row(name, f"{estimate.value:.5g}", error, escape(estimate.unit))
+    console.print(table)
+
+    telling = sorted((test for test in found.after.tests if test.significant), key=lambda test: -test.share)
+    for test in telling[:SHOWN]:
+        console.print(escape(f"{test.record}: {test.words}."), highlight=False)
+    if found.equation is not None and found.equation.terms:
+        said = f"A description, not physics: {found.equation} ({found.equation.share:.0%} of its variance)."
+        console.print(escape(said), highlight=False)
+    for warning in found.warnings:
+        console.print(f"[yellow]{escape(warning)}[/]", highlight=False)
+    if found.advice:
+        console.print(escape(found.advice.words), highlight=False, style="bold")
