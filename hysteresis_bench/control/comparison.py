@@ -80,9 +80,7 @@ def compare(
             responses.append(_shown(run).assign(**key))
     table = pd.DataFrame(scores)
     conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.voltage_limit}
-    return Comparison(
-        table, pd.concat(responses), tuning, fitted.units, conditions, _notes(forward), _warnings(table, forward)
-    )
+    return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, _warnings(table, forward))
 
 
 def _controllers(
@@ -123,25 +121,18 @@ def _shown(run: Run) -> pd.DataFrame:
     return pd.DataFrame(columns | {"voltage": run.voltage[scored], "error": wanted - reached})
 
 
-def _notes(forward: FeedForward) -> tuple[str, ...]:
-    told = [
-        "T_error and T_rmse are the largest and the RMS error of the true displacement; what the sensor sees is beside "
-        "them. Total variation sums every change of the voltage: chatter shows there first.",
-        "The noise floor is the RMS of what the sensor adds; feedback cannot hear less than that in one sample, only "
-        "average it. The delay floor is the RMS error of an output that is perfect but one sample late; a reference "
-        "that is known ahead can be followed more closely.",
-        "The tuning uses the identified model alone, never the rig: the strongest feedback whose largest amplification "
-        "of a disturbance stays below 2, with two samples of lag to spare. The published values of C, epsilon and rho "
-        "repeat those of the Bouc-Wen model and cannot be the controller's.",
-        "The feed-forward is the exact inverse of the discrete model. Equation (14), read with the paper's own names "
-        "(u0 the reference), is the forward model; with the names exchanged it is the inverse, and implicit.",
-    ]
-    if forward.linear is None:
-        told.append(
-            "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
-            "because the model does not know where the actuator resonates. Fit hammerstein for both."
-        )
-    return tuple(told)
+NOTES = (
+    "T_error and T_rmse are the largest and the RMS error of the true displacement; what the sensor sees is beside "
+    "them. Total variation sums every change of the voltage: chatter shows there first.",
+    "The noise floor is the RMS of what the sensor adds; feedback cannot hear less than that in one sample, only "
+    "average it. The delay floor is the RMS error of an output that is perfect but one sample late; a reference "
+    "that is known ahead can be followed more closely.",
+    "The tuning uses the identified model alone, never the rig: the strongest feedback whose largest amplification "
+    "of a disturbance stays below 2, with two samples of lag to spare. The published values of C, epsilon and rho "
+    "repeat those of the Bouc-Wen model and cannot be the controller's.",
+    "The feed-forward is the exact inverse of the discrete model. Equation (14), read with the paper's own names "
+    "(u0 the reference), is the forward model; with the names exchanged it is the inverse, and implicit.",
+)
 
 
 def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
@@ -151,4 +142,9 @@ def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
     ]
     if forward.ignored:
         told.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
+    if forward.linear is None:
+        told.append(
+            "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
+            "because the model does not know where the actuator resonates. Fit hammerstein for both."
+        )
     return tuple(told)
