@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.report.page import NONE, Cell, Table, number, percent
+from hysteresis_bench.report.recovered import recovered
 from hysteresis_bench.report.theme import MUTED, SERIES, Picture, picture
 from hysteresis_bench.study.results import Results
 
@@ -20,12 +21,14 @@ LIMIT = 3.841
 
 @dataclass(frozen=True)
 class Determined:
-    """One problem. sentences : what a user must know before believing the parameters."""
+    """One problem. sentences : what a user must know before believing the parameters; recovered : where the
+    truth is known, who found it."""
 
     problem: str
     sentences: Sequence[str]
     table: Table | None
     profiles: Sequence[Picture]
+    recovered: Table | None
 
 
 def determined(results: Results, folder: Path) -> list[Determined]:
@@ -35,12 +38,13 @@ def determined(results: Results, folder: Path) -> list[Determined]:
         told = results.identifiability.get(spec.name)
         if told is None:
             continue
+        known = recovered(spec.name, told["recovery"]) if told.get("recovery") else None
         if "fault" in told:
-            found.append(Determined(spec.name, [told["fault"]], None, []))
+            found.append(Determined(spec.name, [told["fault"]], None, [], known))
             continue
         profiles = [_profile(folder, f"profile-{i}-{j}", spec.name, p, told) for j, p in enumerate(told["profiles"], 1)]
         sentences = told["sentences"] or ["All parameters are well determined."]
-        found.append(Determined(spec.name, sentences, _table(spec.name, told), profiles))
+        found.append(Determined(spec.name, sentences, _table(spec.name, told), profiles, known))
     return found
 
 

@@ -58,6 +58,7 @@ def convergence(folder: Path, name: str, problem: Problem, looks: Mapping[str, L
         ends = {}
         for label in shown:
             best = np.array([problem.best_at(label, int(trial), counts) for trial in problem.rows[label]["trial"]])
+            best = np.maximum(best, problem.best_known)
             low, middle, high = (_finite([stats.quantile(column, q) for column in best.T]) for q in (0.25, 0.5, 0.75))
             look = looks[label]
             axes.plot(counts, middle, color=look.colour, linestyle=look.dash, zorder=3)
@@ -107,7 +108,8 @@ def _labels(axes: Any, labels: Sequence[str], places: Sequence[float], looks: Ma
 def all_trials(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]) -> Picture:
     """Every trial of every optimizer: fitness over the best known, one row an optimizer, best median on top."""
     scale = problem.best_known if 0.0 < problem.best_known < INF else 1.0
-    ratios = {label: problem.values(label, "fitness") / scale for label in problem.ranked}
+    ratios = {label: np.maximum(problem.values(label, "fitness"), problem.best_known) / scale
+              for label in problem.ranked}  # fmt: skip
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +12,14 @@ import pandas as pd
 from hysteresis_bench import stats
 from hysteresis_bench.report import beside, claims, tables, words
 from hysteresis_bench.report.audit import Finding, audit
+from hysteresis_bench.report.by_record import by_record, measured_loops
 from hysteresis_bench.report.determined import determined
 from hysteresis_bench.report.figures import FLOOR, Look, all_trials, choose, convergence, runtime
 from hysteresis_bench.report.page import Cell, Table, listed, render, whole
+from hysteresis_bench.report.parameters_by_iteration import parameters_by_iteration
 from hysteresis_bench.report.published import Published, check_published
 from hysteresis_bench.report.responses import drive, errors, loop
-from hysteresis_bench.report.summary import Problem, at_iterations, problems
+from hysteresis_bench.report.summary import EXACT, Problem, at_iterations, problems
 from hysteresis_bench.report.theme import Picture
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS, Results
 
@@ -60,7 +62,8 @@ DEFINITIONS = (
         "Tests",
         "Friedman over all optimizers with the trials as blocks; then Wilcoxon signed-rank on pairs of trials that "
         "share their first points (zero differences after Pratt), corrected after Holm within a problem. Fitness "
-        "within 0.01 % of the best known counts as the best known. Below "
+        "within 0.01 % of the best known counts as the best known; on data without noise, so does every fit with a "
+        f"relative RMS below {EXACT:g}. Below "
         f"{stats.ENOUGH} trials no p-value is given.",
     ),
     (
@@ -78,7 +81,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
     judged = claims.judge(published, here)
     findings = audit(published)
     looks = choose(here, results.study.reference, published.optimizers)
-    budget = max((results.study.budget_of(spec) for spec in results.study.optimizer), default=results.study.budget)
+    budget = results.study.budget
     drawn = [(i, problem) for i, problem in enumerate(here, 1) if math.isfinite(problem.best_known)]
     count = published.iterations
     iterations = at_iterations(results, count) if count else pd.DataFrame()
@@ -109,6 +112,8 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
         "optimizers": [tables.optimizers(problem, summary) for problem in here],
         "iterations": [tables.iterations(iterations, problem, count) for problem in here] if count else [],
         "held_out": [tables.held_out(problem, summary) for problem in here],
+        "by_record": by_records(results, here, published),
+        "movements": movements(results, here, published, folder),
         "chosen": chosen(looks, results.study.reference, published),
         "trials": [all_trials(folder, f"trials-{i}", problem, looks) for i, problem in drawn],
         "convergence": [convergence(folder, f"convergence-{i}", p, looks, budget) for i, p in drawn],
@@ -196,26 +201,53 @@ def signals(
     for i, problem in enumerate(here, 1):
         rows = results.responses[results.responses["problem"] == problem.name]
         units = results.provenance.get("units", {}).get(problem.name, {})
-        present = set(rows["optimizer"])
-        shown = [label for label in dict.fromkeys((*published.optimizers, problem.reference, problem.winner))
-                 if label in present]  # fmt: skip
-        by_record = dict(list(rows.groupby(["record", "role"], sort=False)))
-        for j, ((record, role), part) in enumerate(by_record.items(), 1):
+        labels = shown(problem, published, rows["optimizer"])
+        together = measured_loops(folder, f"measured-{i}", rows, units, problem.name)
+        found["drives"] += [together] if together else []
+        records = dict(list(rows.groupby(["record", "role"], sort=False)))
+        for j, ((record, role), part) in enumerate(records.items(), 1):
             one = part[part["optimizer"] == part["optimizer"].iloc[0]][["time", "input", "output"]]
             one = one.reset_index(drop=True)
             if not any(one.equals(other) for other in drawn):
                 drawn.append(one)
                 found["drives"].append(drive(folder, f"drive-{i}-{j}", one, units, f"{record} ({role})."))
             parts = {}
-            for k, label in enumerate(shown, 1):
+            for k, label in enumerate(labels, 1):
                 mine = part[part["optimizer"] == label]
                 colour = looks[label].colour
                 parts[label] = (mine, colour)
+                if role != "fitted" and label != problem.winner:
+                    continue
                 caption = f"{problem.name}, {record} ({role}): best trial of {label}."
                 found["loops"].append(loop(folder, f"loop-{i}-{j}-{k}", mine, units, label, caption, colour))
             caption = f"{problem.name}, {record} ({role}): simulated minus measured."
             found["errors"].append(errors(folder, f"errors-{i}-{j}", parts, units, caption))
     return found
+
+
+def shown(problem: Problem, published: Published, present: Iterable[str]) -> list[str]:
+    """The paper's optimizers, the reference and the best of a problem, where they are present."""
+    wanted = (*published.optimizers, problem.reference, problem.winner)
+    return [label for label in dict.fromkeys(wanted) if label in set(present)]
+
+
+def by_records(results: Results, here: list[Problem], published: Published) -> list[Table]:
+    if results.responses.empty:
+        return []
+    found = []
+    for problem in here:
+        rows = results.responses[results.responses["problem"] == problem.name]
+        found.append(by_record(problem.name, rows, shown(problem, published, rows["optimizer"]), published))
+    return [table for table in found if table]
+
+
+def movements(results: Results, here: list[Problem], published: Published, folder: Path) -> list[Picture]:
+    """The paper's own optimizers, all but the reference: how the parameters moved."""
+    found = []
+    for i, problem in enumerate(here, 1):
+        for j, label in enumerate(each for each in published.optimizers if each != problem.reference):
+            found.append(parameters_by_iteration(results, problem.name, label, folder, f"parameters-{i}-{j}"))
+    return [drawn for drawn in found if drawn]
 
 
 def files(folder: Path) -> list[tuple[str, str]]:

@@ -21,6 +21,10 @@ EQUAL = 1.0001
 """Tests take a fitness within this factor of the best known for the best known itself: with noise-free
 arithmetic the twelfth digit would decide otherwise."""
 
+EXACT = 1e-6
+"""Relative RMS below which a fit is exact and none is better than another: on data without noise some searches
+go on to the last bit, and whether they do says nothing."""
+
 
 @dataclass(frozen=True, eq=False)
 class Problem:
@@ -64,8 +68,17 @@ class Problem:
 
     @cached_property
     def best_known(self) -> float:
-        """The lowest fitness any trial of the study found here; inf where all failed."""
-        return min((float(np.min(self.values(label, "fitness"), initial=INF)) for label in self.labels), default=INF)
+        """The lowest fitness any trial of the study found here, or the highest that is EXACT; inf where all failed."""
+        exact = [
+            float(np.max(self.values(label, "fitness")[close]))
+            for label in self.labels
+            if np.any(close := self.values(label, "relative_rms") <= EXACT)
+        ]
+        return (
+            max(exact)
+            if exact
+            else min((float(np.min(self.values(label, "fitness"), initial=INF)) for label in self.labels), default=INF)
+        )
 
     @property
     def target(self) -> float:
@@ -128,12 +141,18 @@ class Problem:
         return [label for label in self.ranked if label in same]
 
 
-def problems(results: Results) -> list[Problem]:
-    """Every problem of the study that has trials."""
+def problems(results: Results, any_budget: bool = False) -> list[Problem]:
+    """Every problem of the study that has trials.
+
+    any_budget : with the optimizers to which the study gives another budget than to everybody; they are no match
+    for the others at equal evaluations
+    """
+    other = {spec.name for spec in results.study.optimizer if results.study.budget_of(spec) != results.study.budget}
     found = []
     for spec in results.study.problem:
         here = results.trials[results.trials["problem"] == spec.name]
-        rows = {label: here[here["optimizer"] == label] for label in _labels(results, here)}
+        labels = [label for label in _labels(results, here) if any_budget or label not in other]
+        rows = {label: here[here["optimizer"] == label] for label in labels}
         traces = {
             (optimizer, trial): (trace.evaluations, trace.losses)
             for (problem, optimizer, trial), trace in results.traces.items()
@@ -213,7 +232,7 @@ def at_iterations(results: Results, iterations: int) -> pd.DataFrame:
     fitness_q1, fitness_q3, note ("" or why there is no number).
     """
     rows = []
-    for problem in problems(results):
+    for problem in problems(results, any_budget=True):
         for label in problem.ranked:
             told = results.provenance.get("optimizers", {}).get(label, {})
             cost = told.get("evaluations_per_iteration")
@@ -221,10 +240,10 @@ def at_iterations(results: Results, iterations: int) -> pd.DataFrame:
             row = {"problem": problem.name, "optimizer": label, "evaluations_per_iteration": cost, "note": ""}
             if not cost:
                 row["note"] = "has no iterations"
-            elif cost * (iterations + 1) > budget:
+            elif cost * iterations >= budget:
                 row |= {"evaluations": cost * (iterations + 1), "note": "beyond the budget"}
             else:
-                spent = cost * (iterations + 1)
+                spent = min(cost * (iterations + 1), budget)  # a first swarm may cost less than an iteration
                 at = [problem.best_at(label, int(t), np.array([spent]))[0] for t in problem.rows[label]["trial"]]
                 row["evaluations"] = spent
                 row |= {
