@@ -85,13 +85,16 @@ class PeriodicDisturbance(Effect):
         low, high = self.box(records)[2].lower, self.box(records)[2].upper
         resolution = 1.0 / longest(records)
         grid = np.arange(low, min(high, low + MOST_LINES * 0.25 * resolution), 0.25 * resolution)
-        power = np.zeros(grid.size)
+        power, heard = np.zeros(grid.size), np.zeros(grid.size)
         for record, residual in zip(records, residuals, strict=True):
             drive = dominant_frequency(record)
-            frequencies, amplitudes = spectrum(record.time[record.scored], _without_drive(record, residual, drive))
-            power += np.interp(grid, frequencies, amplitudes**2, right=0.0)
             harmonic = np.clip(np.round(grid / drive), 1, HARMONICS)
-            power[np.abs(grid - harmonic * drive) < 1.0 / duration(record)] = -np.inf
+            # a record has no say near its own drive's harmonics; one driven at another frequency has
+            apart = np.abs(grid - harmonic * drive) >= 1.0 / duration(record)
+            frequencies, amplitudes = spectrum(record.time[record.scored], _without_drive(record, residual, drive))
+            power += apart * np.interp(grid, frequencies, amplitudes**2, right=0.0)
+            heard += apart
+        power = np.where(heard > 0, power / np.maximum(heard, 1.0), -np.inf)
         found: list[dict[str, float]] = []
         while len(found) < PROPOSALS and grid.size and np.max(power) > 0.0:
             frequency = float(grid[np.argmax(power)])
