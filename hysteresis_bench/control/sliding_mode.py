@@ -13,6 +13,7 @@ Ours: x1 and x2 come from an observer, see `observer`; the law is evaluated at e
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -68,4 +69,4 @@ class SlidingMode:
     def _sign(self, s: float) -> float:
         if self.layer > 0.0:
             return min(max(s / self.layer, -1.0), 1.0)
-        return (s > 0.0) - (s < 0.0)
+        return math.copysign(1.0, s) if s != 0.0 else 0.0

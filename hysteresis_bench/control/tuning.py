@@ -5,7 +5,8 @@ One requirement for all: the modulus margin. The largest amplification of a dist
 SPARE_SAMPLES more of lag, for what the model lacks. Within that, feedback is as strong as it goes [1].
 
 Sliding mode: C and the total slope of the reaching law are both a bandwidth lambda (the error decays with two equal
-poles), the observer's three poles lie there too, and lambda is the largest that keeps the margin. Half of the slope
+poles), the observer's three poles lie there too, and lambda is the largest that keeps the margin,
+and is no faster than the sampling. Half of the slope
 is rho; the boundary layer is as wide as makes epsilon / layer the other half. epsilon exceeds the force that the
 model's own error on its fitted records is worth, (k/m) ERRORS RMSE.
 PI: the strongest integral that keeps the margin, over all proportional gains.
@@ -57,7 +58,7 @@ def tune_sliding_mode(linear: LinearSection, interval: float, model_error: float
     natural = np.sqrt(linear.stiffness)
     found = None
     for bandwidth in natural * np.geomspace(1.0, 50.0, 200):
-        if _peak(sliding_mode_loop(linear, bandwidth, interval)) > PEAK:
+        if bandwidth * interval > 1.0 or _peak(sliding_mode_loop(linear, bandwidth, interval)) > PEAK:
             break
         found = float(bandwidth)
     if found is None:
