@@ -1,0 +1,98 @@
+"""Homogenized free-energy magnetization with eddy currents: `free_energy` and `eddy_current` say what each is."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from hysteresis_bench.kernels.eddy_current import acting
+from hysteresis_bench.kernels.free_energy import LANES, error_function
+
+# Rows of the nodes' work array: the plays' P and their share of the magnetization, each with what the last trial found.
+RADIUS, WEIGHT, STATE, TERM, NEXT_STATE, NEXT_TERM = range(6)
+SCALE, SLOPE, AMPLITUDE, MOVED = range(4)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
+def _advanced(of: tuple[NDArray, NDArray], z: float) -> float:
+    """M where the acting field has moved on to z; the MOVED nodes of smallest radius find NEXT_STATE, NEXT_TERM."""
+    nodes, s = of
+    padded = nodes.shape[1]
+    h = s[SCALE] * z
+    moved = 0
+    while moved < padded and abs(h - nodes[STATE, moved]) > nodes[RADIUS, moved]:
+        moved += LANES
+    total = 0.0
+    for j in range(moved):
+        high = h + nodes[RADIUS, j]
+        low = h - nodes[RADIUS, j]
+        p = nodes[STATE, j]
+        p = high if high < p else p
+        p = low if low > p else p  # (3)
+        nodes[NEXT_STATE, j] = p
+        nodes[NEXT_TERM, j] = nodes[WEIGHT, j] * error_function(p)
+        total += nodes[NEXT_TERM, j]
+    for j in range(moved, padded):
+        total += nodes[TERM, j]
+    s[MOVED] = moved
+    return s[SLOPE] * z + s[AMPLITUDE] * total
+
+
+@njit(cache=True, error_model="numpy")
+def _kept(nodes: NDArray, s: NDArray) -> None:
+    """What the last trial found is the state."""
+    for j in range(int(s[MOVED])):
+        nodes[STATE, j] = nodes[NEXT_STATE, j]
+        nodes[TERM, j] = nodes[NEXT_TERM, j]
+
+
+@njit(cache=True, error_model="numpy")
+def eddy_magnetization(
+    time: NDArray,
+    field: NDArray,
+    coefficient: NDArray,
+    slope: NDArray,
+    amplitude: NDArray,
+    coercive_field: NDArray,
+    spread: NDArray,
+    interaction: NDArray,
+    offsets: NDArray,
+    weights: NDArray,
+) -> NDArray:
+    """M of a swarm, where z = H - coefficient dM/dt acts in place of the field H.
+
+    time : float64[samples]           strictly increasing
+    coefficient : float64[swarm]      >= 0, unit of H times unit of time over unit of M
+    the others, and the result, as in `magnetization`
+    -> float64[samples, swarm]        C order; z = H at the first sample, which switches the demagnetized plays
+    """
+    samples, swarm = field.shape[0], slope.size
+    padded = -(-offsets.size // LANES) * LANES
+    nodes = np.zeros((6, padded))
+    s = np.zeros(4)
+    nodes[WEIGHT, : offsets.size] = weights
+    magnetized = np.empty((samples, swarm))
+    for i in range(swarm):
+        column = i if field.shape[1] > 1 else 0
+        s[SCALE] = 1.0 / (interaction[i] * math.sqrt(2.0))
+        s[SLOPE] = slope[i]
+        s[AMPLITUDE] = amplitude[i]
+        for j in range(padded):
+            # the density of H_c in (1), substituted ln(H_c / mean) = 2 c (c + s), is exp(-s^2)
+            offset = offsets[min(j, offsets.size - 1)]
+            nodes[RADIUS, j] = s[SCALE] * coercive_field[i] * math.exp(2.0 * spread[i] * (spread[i] + offset))
+            nodes[STATE, j] = 0.0
+            nodes[TERM, j] = 0.0
+        z = field[0, column]
+        magnetized[0, i] = _advanced((nodes, s), z)
+        _kept(nodes, s)
+        for k in range(1, samples):
+            rate = coefficient[i] / (time[k] - time[k - 1])
+            z, magnetized[k, i] = acting(
+                _advanced, (nodes, s), z, magnetized[k - 1, i], field[k - 1, column], field[k, column], rate
+            )
+            _kept(nodes, s)
+    return magnetized
