@@ -228,6 +228,10 @@ def _list_kind(kind: registry.Kind, console: Console) -> None:
         if kind == "rigs" and plugin.loaded is not None:
             summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
         table.add_row(f"  {name}", _escaped(summary), style="red" if plugin.fault else "")
+    if kind == "effects":
+        for name, models in registry.offered().items():
+            effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]
+            table.add_row(f"  {name}", _escaped(f"{registry.sentence(type(effect))} For {', '.join(models)}."))
     console.print(table)
 
 

@@ -21,6 +21,7 @@ from hysteresis_bench.signals import Record, Signal
 class System:
     """A model and the effects around it, innermost first.
 
+    An effect that the model offers acts inside the model, wherever it stands among the others.
     fixed : parameters that are known, by name, in units; a fit does not see them
     Parameters are the model's, then each effect's as "effect.parameter", without the fixed ones;
     values are (dimension, swarm) in that order.
@@ -76,6 +77,10 @@ class System:
         return [namedtuple("Values", [p.name for p in part.parameters]) for _, part in self._stack]
 
     @cached_property
+    def _model_values(self) -> Any:
+        return namedtuple("Values", [*(p.name for p in self.model.parameters), *self._inside])
+
+    @cached_property
     def _rows(self) -> list[slice]:
         ends = np.cumsum([0, *(len(part.parameters) for _, part in self._stack)])
         return [slice(int(low), int(high)) for low, high in pairwise(ends)]
@@ -92,9 +97,22 @@ class System:
     def _fixed_column(self) -> NDArray:
         return np.array([[self.fixed.get(name, np.nan)] for name in self._names])
 
+    @cached_property
+    def _inside(self) -> dict[str, int]:
+        """Fields of the model's values that hold an effect's, and where that effect stands."""
+        return {
+            name.replace("-", "_"): position
+            for position, (name, _) in enumerate(self.effects, start=1)
+            if name in self.model.offers
+        }
+
     def _named(self, values: NDArray) -> list[Any]:
+        """The values of the model and of every effect, a namedtuple of (swarm,) arrays each."""
         full = self._with_fixed(values)
-        return [named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)]
+        found: list[Any] = [named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)]
+        if self._inside:
+            found[0] = self._model_values(*found[0], *(found[position] for position in self._inside.values()))
+        return found
 
     def _with_fixed(self, values: NDArray) -> NDArray:
         if not self.fixed:

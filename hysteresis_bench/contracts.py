@@ -10,7 +10,8 @@ a library) it imports inside its method, so that `list` stays fast.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any, ClassVar, Protocol
 
 import numpy as np
@@ -31,6 +32,10 @@ class Model(ABC):
     parameters: ClassVar[tuple[Parameter, ...]]
     linear: ClassVar[tuple[str, ...]] = ()
     """Parameters in which the output is jointly affine: fits may eliminate them."""
+    offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
+    """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
+    put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
+    elsewhere p has no such field."""
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> NDArray:

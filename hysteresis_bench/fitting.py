@@ -126,11 +126,11 @@ def _system(
 ) -> System:
     faults = registry.faults("models", model, settings) + registry.faults("optimizers", optimizer, optimizer_settings)
     for effect in effects:
-        faults += registry.faults("effects", effect, {})
+        faults += registry.effect_faults(effect, model)
     if faults:
         raise UserError("fit", faults)
-    stack = tuple((name, registry.build("effects", name)) for name in effects)
-    system = System(registry.build("models", model, settings), stack)
+    built = registry.build("models", model, settings)
+    system = System(built, registry.build_effects(built, effects))
     names = [parameter.name for parameter in system.parameters]
     unknown = [f'fixed: no parameter "{name}". {nearest(name, names)}' for name in fixed if name not in names]
     if unknown:

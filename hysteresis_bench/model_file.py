@@ -62,10 +62,8 @@ class FittedModel:
     @property
     def system(self) -> System:
         """Raises ValueError where a plugin is missing or its settings are wrong."""
-        effects = tuple(
-            (name, registry.build("effects", name, self.effect_settings.get(name, {}))) for name in self.effects
-        )
-        return System(registry.build("models", self.model, self.settings), effects, self.fixed)
+        model = registry.build("models", self.model, self.settings)
+        return System(model, registry.build_effects(model, self.effects, self.effect_settings), self.fixed)
 
     @property
     def values(self) -> NDArray:

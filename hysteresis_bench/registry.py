@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import typing
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import EntryPoint, entry_points
@@ -33,9 +33,12 @@ class Plugin:
     @property
     def summary(self) -> str:
         """The first sentence of the plugin's docstring, or its fault."""
-        if self.loaded is None:
-            return f"broken: {self.fault}"
-        return " ".join((self.loaded.__doc__ or "").split("\n\n")[0].split())
+        return f"broken: {self.fault}" if self.loaded is None else sentence(self.loaded)
+
+
+def sentence(plugin: type) -> str:
+    """The first paragraph of a docstring, on one line."""
+    return " ".join((plugin.__doc__ or "").split("\n\n")[0].split())
 
 
 @cache
@@ -65,6 +68,17 @@ def load(kind: Kind, name: str) -> Plugin:
     if missing:
         return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")
     return Plugin(kind, name, distribution, loaded)
+
+
+@cache
+def offered() -> Mapping[str, tuple[str, ...]]:
+    """Effects that act inside models: their names, and the models that offer them."""
+    found: dict[str, tuple[str, ...]] = {}
+    for model in names("models"):
+        plugin = load("models", model)
+        for effect in plugin.loaded.offers if plugin.loaded else ():  # type: ignore[attr-defined]
+            found[effect] = (*found.get(effect, ()), model)
+    return found
 
 
 def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:
@@ -98,6 +112,33 @@ def build(kind: Kind, name: str, settings: Mapping[str, Any] | None = None) -> A
     loaded = load(kind, name).loaded
     assert loaded is not None
     return loaded(**(settings or {}))
+
+
+def effect_faults(effect: str, model: str) -> list[str]:
+    """What is wrong with an effect around a model, both by name, a sentence each; empty when nothing is."""
+    if effect in _points("effects"):
+        return faults("effects", effect, {})
+    if effect not in offered():
+        return [f'no effect "{effect}". {nearest(effect, (*names("effects"), *offered()))}']
+    if model in _points("models") and model not in offered()[effect]:
+        return [f"{model} has no room for {effect}; models that offer it: {', '.join(offered()[effect])}."]
+    return []
+
+
+def build_effects(
+    model: Model, effects: Iterable[str], settings: Mapping[str, Mapping[str, Any]] | None = None
+) -> tuple[tuple[str, Effect], ...]:
+    """Effects by name as they go around a model: those that it offers are its own. settings : by the effect's name.
+    Raises ValueError for an effect that neither is registered nor has room in the model."""
+    told = settings or {}
+    homeless = [name for name in effects if name in offered() and name not in (*model.offers, *_points("effects"))]
+    if homeless:
+        name = homeless[0]
+        raise ValueError(f"the model has no room for {name}; models that offer it: {', '.join(offered()[name])}.")
+    return tuple(
+        (name, model.offers[name] if name in model.offers else build("effects", name, told.get(name)))
+        for name in effects
+    )
 
 
 def _settings(plugin: type) -> dict[str, Any]:

@@ -50,8 +50,8 @@ def build_system(
     model: str, settings: dict | None = None, effects: Sequence[str] = (), fixed: dict[str, float] | None = None
 ) -> System:
     """A registered model with registered effects around it, innermost first."""
-    stack = tuple((name, registry.build("effects", name)) for name in effects)
-    return System(registry.build("models", model, settings), stack, fixed or {})
+    built = registry.build("models", model, settings)
+    return System(built, registry.build_effects(built, effects), fixed or {})
 
 
 def inapplicable(system: System, dataset: Dataset) -> list[str]:

@@ -206,7 +206,7 @@ def _problem_faults(spec: dict[str, Any]) -> list[str]:
         faults = registry.faults("models", spec["model"], spec.get("settings", {}))
         found += faults or _bound_faults(spec)
     for effect in spec.get("effects", []):
-        found += registry.faults("effects", effect, {})
+        found += registry.effect_faults(effect, str(spec.get("model")))
     if isinstance(spec.get("rig"), str):
         faults = registry.faults("rigs", spec["rig"], spec.get("rig_settings", {}))
         found += faults

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
 
 OFFSET_SHARE = 0.02
 """Share of the output's span from which a record's offset is worth a word."""
@@ -39,6 +40,7 @@ class BoucWen(Model):
         Parameter("gamma", 0.0, 5.0, unit="1/{input}", meaning="shape of the loop: relaxation by direction"),
         Parameter("d", 0.0, 5.0, unit="{output}/{input}", meaning="linear response"),
     )
+    offers = OFFERS
 
     n: float = 1.0
 
@@ -47,11 +49,19 @@ class BoucWen(Model):
             raise ValueError(f"n = {self.n} must be a finite number of at least 1.")
 
     def simulate(self, signal: Signal, p: Any) -> NDArray:
+        return with_eddy_current(self._plain, self._dragged, signal, p)
+
+    def _plain(self, u: NDArray, p: Any) -> NDArray:
         from hysteresis_bench.kernels.bouc_wen import bouc_wen, bouc_wen_power
 
         if self.n == 1.0:
-            return bouc_wen(signal.input, p.alpha, p.beta, p.gamma, p.d)
-        return bouc_wen_power(signal.input, p.alpha, p.beta, p.gamma, p.d, self.n)
+            return bouc_wen(u, p.alpha, p.beta, p.gamma, p.d)
+        return bouc_wen_power(u, p.alpha, p.beta, p.gamma, p.d, self.n)
+
+    def _dragged(self, time: NDArray, u: NDArray, coefficient: NDArray, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.eddy_bouc_wen import eddy_bouc_wen
+
+        return eddy_bouc_wen(time, u, coefficient, p.alpha, p.beta, p.gamma, p.d, float(self.n))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """From the spans of the data: d up to four times their ratio; the loop relaxes over a thousandth of

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
 
 FIELD_PER_MAGNETIZATION = "{input} mu0/{output}"
 """Unit of H over unit of M: mu0 M is in the unit of the output, as a number."""
@@ -40,12 +41,21 @@ class JilesAtherton(Model):
         Parameter("M_s", 1e5, 3e7, "{output}/mu0", meaning="saturation magnetization"),
         Parameter("c", 1e-2, 3.0, "1", meaning="reversibility of wall motion"),
     )
+    offers = OFFERS
     clamped: ClassVar[bool] = False
 
     def simulate(self, signal: Signal, p: Any) -> NDArray:
+        return with_eddy_current(self._plain, self._dragged, signal, p)
+
+    def _plain(self, H: NDArray, p: Any) -> NDArray:
         from hysteresis_bench.kernels.jiles_atherton import jiles_atherton
 
-        return jiles_atherton(signal.input, p.alpha, p.a, p.k, p.M_s, p.c, self.clamped)
+        return jiles_atherton(H, p.alpha, p.a, p.k, p.M_s, p.c, self.clamped)
+
+    def _dragged(self, time: NDArray, H: NDArray, coefficient: NDArray, p: Any) -> NDArray:
+        from hysteresis_bench.kernels.eddy_jiles_atherton import eddy_jiles_atherton
+
+        return eddy_jiles_atherton(time, H, coefficient, p.alpha, p.a, p.k, p.M_s, p.c, self.clamped)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Log-scaled, from the largest |input| and |output|; c is held to its physical range, up to 1.
