@@ -127,17 +127,15 @@ def _normal(problem: Problem, points: NDArray, weights: NDArray | None) -> tuple
 
 def _steps(matrices: NDArray, descents: NDArray, points: NDArray, damping: NDArray) -> NDArray:
     """(dimension, chains, dampings)"""
-    dimension = points.shape[0]
-    steps = np.zeros((dimension, points.shape[1], DAMPINGS.size))
-    for chain, (matrix, descent) in enumerate(zip(matrices, descents, strict=True)):
-        point = points[:, chain]
-        free = ~(((point <= 0.0) & (descent < 0.0)) | ((point >= 1.0) & (descent > 0.0)))
-        diagonal = np.diag(matrix)[free]
-        if not diagonal.size or not np.max(diagonal) > 0.0:
-            continue
-        diagonal = np.maximum(diagonal, 1e-12 * np.max(diagonal))
-        inner = matrix[np.ix_(free, free)]
-        for place, factor in enumerate(DAMPINGS):
-            damped = inner + np.diag(damping[chain] * factor * diagonal + 1e-14 * np.max(diagonal))
-            steps[free, chain, place] = np.linalg.solve(damped, descent[free])
-    return steps
+    held = ((points <= 0.0) & (descents.T < 0.0) | (points >= 1.0) & (descents.T > 0.0)).T
+    diagonal = np.einsum("ijj->ij", matrices)
+    largest = np.max(diagonal, axis=1, keepdims=True)
+    held |= largest <= 0.0
+    # a held parameter's row and column say that its step is 0
+    inner = np.where(held[:, :, None] | held[:, None, :], 0.0, matrices)
+    floor = np.maximum(diagonal, 1e-12 * largest)
+    added = damping[:, None, None] * DAMPINGS[:, None] * floor[:, None, :] + 1e-14 * largest[:, :, None]
+    added = np.where(held[:, None, :], 1.0, added)
+    systems = inner[:, None] + added[..., None] * np.eye(points.shape[0])
+    right = np.where(held, 0.0, descents)[:, None, :, None]
+    return np.linalg.solve(systems, np.broadcast_to(right, (*systems.shape[:3], 1)))[..., 0].transpose(2, 0, 1)

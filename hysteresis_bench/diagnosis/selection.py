@@ -69,11 +69,13 @@ class Selection:
         while True:
             found = self._round(current)
             self.rounds.append(found)
-            if not found.chosen or len(self.adopted(current)) >= MOST:
+            if found.chosen and len(self.adopted(current)) < MOST:
+                better = self._settle(self.bench.refitted(found.trials[found.chosen]))
+            else:
+                better = self._exchanged(current) or current
+            if better.names in visited:
                 return current
-            current = self._settle(self.bench.refitted(found.trials[found.chosen]))
-            if current.names in visited:
-                return current
+            current = better
             visited.add(current.names)
 
     def adopted(self, trial: Trial) -> tuple[str, ...]:
@@ -132,7 +134,9 @@ class Selection:
     def _settle(self, current: Trial) -> Trial:
         """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
         for _ in range(2 * MOST):
-            better = self._dropped(current) or self._exchanged(current)
+            better = self._dropped(current)
+            if better is None and current.rmse > MATTERS * self.floor:
+                better = self._exchanged(current)
             if better is None:
                 return current
             current = better
@@ -147,10 +151,7 @@ class Selection:
         return min(spare, key=lambda trial: trial.cv_rmse) if spare else None
 
     def _exchanged(self, current: Trial) -> Trial | None:
-        names = self.adopted(current)
-        if len(names) < 2:
-            return None
-        for name in names:
+        for name in self.adopted(current):
             rivals = [t for t in self.alternatives(current, name).values()]
             if not rivals:
                 continue

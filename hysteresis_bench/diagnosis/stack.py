@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
@@ -74,8 +74,18 @@ class Stack:
         effects = tuple((name, effect(name)) for name in outside)
         return System(self.model, effects, {**held, **(self.fixed or {})})
 
-    def problem(self, names: Collection[str], records: Sequence[Record] | None = None) -> Problem:
+    def problem(self, names: Collection[str]) -> Problem:
         """Their least-squares problem; boxes follow from the fitted records."""
+        key = frozenset(names)
+        if key not in self._problems:
+            self._problems[key] = self._problem(key)
+        return self._problems[key]
+
+    @cached_property
+    def _problems(self) -> dict[frozenset[str], Problem]:
+        return {}
+
+    def _problem(self, names: frozenset[str]) -> Problem:
         system = self.system(names)
         boxes = [
             p.within(*self.bounds[p.name], "linear" if self.bounds[p.name][0] <= 0 else p.scaling)
@@ -83,7 +93,7 @@ class Stack:
             else p
             for p in system.box(self.records)
         ]
-        return Problem(system, tuple(self.records if records is None else records), Space(tuple(boxes)), LOSSES["rmse"])
+        return Problem(system, self.records, Space(tuple(boxes)), LOSSES["rmse"])
 
     def candidates(self) -> tuple[tuple[str, ...], dict[str, str]]:
         """Names of the effects that can be tried, and of those that cannot, with the reason."""
@@ -102,7 +112,8 @@ class Stack:
         return tuple(possible), impossible
 
 
+@cache
 def effect(name: str) -> Effect:
-    """An effect with its default settings."""
+    """An effect with its default settings; built once, as finding a plugin takes a while."""
     built: Effect = registry.build("effects", name)
     return built
