@@ -8,6 +8,7 @@ from hysteresis_bench import stats
 from hysteresis_bench.report.expression import evaluate
 from hysteresis_bench.report.page import NONE, Cell, Table, number
 from hysteresis_bench.report.published import Published
+from hysteresis_bench.report.stages_section import of_a_stage
 from hysteresis_bench.report.summary import Problem
 from hysteresis_bench.report.tables import metric_text
 from hysteresis_bench.study.results import Results
@@ -65,10 +66,13 @@ def _ours(optimizer: str, metric: str, problems: list[Problem]) -> Iterator[str]
 
 def tables_beside(published: Published, results: Results, problems: list[Problem]) -> list[Table]:
     """Every printed table. One with the columns parameter, min and max is a search box and stands beside
-    ours; one with the column optimizer holds identified values and stands beside our best trial's."""
+    ours; one with the column optimizer holds identified values and stands beside our best trial's; one of a
+    stage stands with the stage."""
     found = []
     for table in published.tables.values():
         columns = table.columns
+        if of_a_stage(table, results):
+            continue
         if {"parameter", "min", "max"} <= set(columns):
             found.append(_box(table.title, columns, results))
         elif "optimizer" in columns:

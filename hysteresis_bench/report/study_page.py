@@ -19,6 +19,7 @@ from hysteresis_bench.report.page import Cell, Table, listed, render, whole
 from hysteresis_bench.report.parameters_by_iteration import parameters_by_iteration
 from hysteresis_bench.report.published import Published, check_published
 from hysteresis_bench.report.responses import drive, errors, loop
+from hysteresis_bench.report.stages_section import stage_views
 from hysteresis_bench.report.summary import EXACT, Problem, at_iterations, problems
 from hysteresis_bench.report.theme import Picture
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS, Results
@@ -32,6 +33,7 @@ HEADINGS = (
     ("searches", "How the searches went"),
     ("signals", "Drive and response, loops, errors"),
     ("held-out", "Fitted and held-out error"),
+    ("stages", "The linear section, and the whole model"),
     ("determined", "What the data determine"),
     ("audit", "Paper audit"),
     ("decisions", "What was left open, and decided"),
@@ -119,6 +121,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
         "convergence": [convergence(folder, f"convergence-{i}", p, looks, budget) for i, p in drawn],
         "runtime": [runtime(folder, f"runtime-{i}", p, looks, budget) for i, p in drawn],
         **signals(results, here, published, looks, folder),
+        "stages": stage_views(results, published, folder),
         "determined": determined(results, folder),
         "audit": tables.audit(findings) if findings else None,
         "audited": audited(findings),
