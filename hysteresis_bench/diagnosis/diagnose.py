@@ -126,7 +126,7 @@ def diagnose(
         _model(after, dataset, ready, model, settings or {}, preparation),
         _responses(ready, before, after),
         {"fitted": [r.name for r in ready.fitted], "held_out": [r.name for r in ready.held_out], "how": how},
-        warnings(built, ready.fitted, final, alone, loud, ties),
+        warnings(built, ready.fitted, final, alone, loud.floor < floor, ties),
         dataset.units,
     )
 
@@ -134,7 +134,7 @@ def diagnose(
 def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: Sequence[str]) -> None:
     faults = registry.faults("models", model, settings)
     for name in effects:
-        faults += registry.faults("effects", name, {})
+        faults += registry.effect_faults(name, model)
     for record in dataset.fitted:
         if np.ptp(record.measured) == 0:
             faults.append(f"record {record.name}: the output is constant; there is nothing to diagnose.")
@@ -204,7 +204,7 @@ def _step(selection: Selection, number: int) -> Step:
 def _candidates(
     selection: Selection, found: Trial, impossible: Mapping[str, str], ties: Sequence[Tie]
 ) -> tuple[Candidate, ...]:
-    bench, rows = selection.bench, []
+    rows = []
     last = selection.rounds[-1]
     for name in selection.candidates:
         adopted = name in found.names
@@ -212,7 +212,6 @@ def _candidates(
         if larger is None:
             continue
         test, gain = selection.compared(smaller, larger)
-        offered = bench.stack.offered.get(name)
         rows.append(
             Candidate(
                 name,
@@ -225,9 +224,9 @@ def _candidates(
                 parameters={
                     key.removeprefix(f"{name}."): value
                     for key, value in larger.values.items()
-                    if key.startswith(f"{name}.") or key == offered
+                    if key.startswith(f"{name}.")
                 },
-                at_bound=tuple(key for key in larger.at_bound if key.startswith(f"{name}.") or key == offered),
+                at_bound=tuple(key for key in larger.at_bound if key.startswith(f"{name}.")),
                 tied_with=tuple(
                     one.rival if one.effect == name else one.effect for one in ties if name in (one.effect, one.rival)
                 ),

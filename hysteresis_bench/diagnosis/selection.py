@@ -34,6 +34,9 @@ CLOSE = 0.5
 ALIKE = 1.02
 """... and whose cross-validated errors are within this ratio."""
 
+CONTENDERS, WITHIN = 4, 1.6
+"""So many of the best, within this ratio of the least RMSE, are fitted again from other starts."""
+
 MOST = 5
 
 
@@ -121,7 +124,7 @@ class Selection:
         return min(alike, key=lambda trial: (len(trial.at_bound) > 0, len(trial.values), sorted(trial.names)))
 
     def _round(self, current: Trial) -> Round:
-        trials = self._extensions(current)
+        trials = self._sought(self._extensions(current))
         tests = {name: self.bench.test(current, trial) for name, trial in trials.items()}
         gains = {name: advantage(t.left_out, current.left_out, self.bench.blocks) for name, t in trials.items()}
         passed = {name: t for name, t in trials.items() if self.needed(current, t, len(self.candidates))}
@@ -152,7 +155,7 @@ class Selection:
 
     def _exchanged(self, current: Trial) -> Trial | None:
         for name in self.adopted(current):
-            rivals = [t for t in self.alternatives(current, name).values()]
+            rivals = list(self._sought(self.alternatives(current, name)).values())
             if not rivals:
                 continue
             best = self.simplest([current, *rivals])
@@ -166,6 +169,23 @@ class Selection:
         names = [name for name in self.candidates if name not in trial.names and name not in exclude]
         found = self._ask([("extended", trial, name) for name in names], [trial.names | {name} for name in names])
         return dict(zip(names, found, strict=True))
+
+    def _sought(self, trials: dict[str, Trial]) -> dict[str, Trial]:
+        """The contenders are fitted again from other starts, where there is more than one effect to be bent."""
+        least = min((trial.rmse for trial in trials.values()), default=0.0)
+        if least < MATTERS * self.floor:
+            return trials
+        ranked = sorted(trials, key=lambda name: trials[name].rmse)
+        close = [
+            name
+            for name in ranked[:CONTENDERS]
+            if trials[name].rmse < WITHIN * least and len(self.adopted(trials[name])) > 1
+        ]
+        again = self.crew.map([("refitted", trials[name]) for name in close])
+        for name, trial in zip(close, again, strict=True):
+            self.known[trial.names] = trial
+            trials = {**trials, name: trial}
+        return trials
 
     def _ask(self, questions: Sequence[tuple], names: Sequence[frozenset[str]]) -> list[Trial]:
         """Only what is not known yet."""

@@ -15,6 +15,7 @@ from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 
 INNER = (
+    "eddy-current",
     "backlash",
     "asymmetry",
     "input-lag",
@@ -31,8 +32,6 @@ OUTER = ("periodic-disturbance", "drift", "bias", "record-offset")
 not named here, such as one of another distribution, stands between the two."""
 
 OFFSETS = ("bias", "record-offset")
-IN_LOOP = ("eddy-current",)
-"""Effects that only a model can offer, as a parameter of its own."""
 
 
 def place(name: str) -> tuple[int, str]:
@@ -40,11 +39,6 @@ def place(name: str) -> tuple[int, str]:
     if name in OUTER:
         return len(INNER) + 1 + OUTER.index(name), name
     return (INNER.index(name) if name in INNER else len(INNER)), name
-
-
-def in_loop(model: Model) -> dict[str, str]:
-    """Effects that the model offers itself: their names, and the parameters that switch them."""
-    return {p.name.replace("_", "-"): p.name for p in model.parameters if p.null is not None}
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,17 +56,14 @@ class Stack:
     bounds: Mapping[str, tuple[float, float]] | None = None
     fixed: Mapping[str, float] | None = None
 
-    @cached_property
-    def offered(self) -> dict[str, str]:
-        return in_loop(self.model)
+    def effect(self, name: str) -> Effect:
+        """An effect with its default settings: the model's own, where it offers one of this name."""
+        return self.model.offers[name] if name in self.model.offers else _built(name)
 
     def system(self, names: Collection[str]) -> System:
-        """The model with these effects in their places; what it offers itself is held at its null unless named."""
-        outside = sorted({*names, *self.own} - set(self.offered), key=place)
-        nulls = {p.name: float(p.null) for p in self.model.parameters if p.null is not None}
-        held = {parameter: nulls[parameter] for name, parameter in self.offered.items() if name not in names}
-        effects = tuple((name, effect(name)) for name in outside)
-        return System(self.model, effects, {**held, **(self.fixed or {})})
+        """The model with these effects in their places."""
+        outside = sorted({*names, *self.own}, key=place)
+        return System(self.model, tuple((name, self.effect(name)) for name in outside), self.fixed or {})
 
     def problem(self, names: Collection[str]) -> Problem:
         """Their least-squares problem; boxes follow from the fitted records."""
@@ -98,22 +89,21 @@ class Stack:
     def candidates(self) -> tuple[tuple[str, ...], dict[str, str]]:
         """Names of the effects that can be tried, and of those that cannot, with the reason."""
         possible, impossible = [], {}
-        for name in sorted({*registry.names("effects"), *IN_LOOP, *self.offered} - {"record-offset", *self.own}):
-            if name in self.offered:
-                possible.append(name)
-            elif name in IN_LOOP:
-                impossible[name] = "this model does not offer it: it acts inside the state equation"
-            elif fault := registry.load("effects", name).fault:
+        known = {*registry.names("effects"), *registry.offered()}
+        for name in sorted(known - {*OFFSETS, *self.own}):
+            if name not in self.model.offers and name not in registry.names("effects"):
+                impossible[name] = "it acts inside the state equation, and this model does not offer it"
+            elif name not in self.model.offers and (fault := registry.load("effects", name).fault):
                 impossible[name] = f"broken: {fault}"
-            elif reason := effect(name).inapplicable(self.records):
+            elif reason := self.effect(name).inapplicable(self.records):
                 impossible[name] = reason
-            elif name != "bias":
+            else:
                 possible.append(name)
         return tuple(possible), impossible
 
 
 @cache
-def effect(name: str) -> Effect:
-    """An effect with its default settings; built once, as finding a plugin takes a while."""
-    built: Effect = registry.build("effects", name)
-    return built
+def _built(name: str) -> Effect:
+    """Built once, as finding a plugin takes a while."""
+    effect: Effect = registry.build("effects", name)
+    return effect

@@ -14,7 +14,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.cross_validation import Blocks, cut, left_out_errors
 from hysteresis_bench.diagnosis.fit_system import descend, errors, jacobian, point_of, split, values_of
 from hysteresis_bench.diagnosis.nested import SEARCHED, NestedTest, nested_test
-from hysteresis_bench.diagnosis.stack import Stack, effect
+from hysteresis_bench.diagnosis.stack import Stack
 from hysteresis_bench.identify import generator, search, shared_start
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Parameter
@@ -93,7 +93,7 @@ class Bench:
         grid = [*_grid(new), *self._proposed(trial, name)]
         points = np.column_stack([point_of(problem, {**trial.values, **values}) for values in grid])
         if new:
-            points = points[:, self._promising(trial, problem, points)]
+            points = points[:, self._promising(trial, problem, points, trial.values)]
         return self._finished(problem, names, points)
 
     def reduced(self, trial: Trial, name: str) -> Trial:
@@ -108,10 +108,17 @@ class Bench:
         return self._finished(problem, names, np.column_stack([point, self._random(problem, point)[:, :2]]))
 
     def refitted(self, trial: Trial) -> Trial:
-        """From other starts as well: what an effect explained may have been bent into the others' values."""
+        """From other starts as well: what an effect explains may have been bent into the values of others."""
         problem = self.stack.problem(trial.names)
         point = point_of(problem, trial.values)[:, None]
-        found = self._finished(problem, trial.names, np.column_stack([point, self._random(problem, point)]))
+        own = [p.name for p in self.stack.model.parameters if p.name in trial.values]
+        effects = np.array([name not in own for name in problem.space.names])
+        starts = [point, self._random(problem, point)]
+        if effects.any():
+            elsewhere = np.repeat(point, RANDOM, axis=1)
+            elsewhere[effects, 1:] = default_rng(self.seed).random((int(effects.sum()), RANDOM - 1))
+            starts.append(elsewhere[:, self._promising(trial, problem, elsewhere, own)[1:]])
+        found = self._finished(problem, trial.names, np.column_stack(starts))
         return found if found.rmse < trial.rmse else trial
 
     def polished(self, trial: Trial) -> NDArray:
@@ -137,18 +144,18 @@ class Bench:
 
     def _proposed(self, trial: Trial, name: str) -> list[dict[str, float]]:
         """What the effect itself proposes, from the residuals."""
-        if name in self.stack.offered:
-            return []
         residuals = split(trial.residuals, self.stack.records)
-        proposals = effect(name).starts(self.stack.records, residuals)
+        proposals = self.stack.effect(name).starts(self.stack.records, residuals)
         return [{f"{name}.{key}": value for key, value in proposal.items()} for proposal in proposals]
 
-    def _promising(self, trial: Trial, problem: Problem, points: NDArray) -> NDArray:
-        """Columns that leave least once the known parameters have followed to first order, unlike each other."""
+    def _promising(self, trial: Trial, problem: Problem, points: NDArray, following: Collection[str]) -> NDArray:
+        """Columns that leave least once the `following` parameters have followed to first order, unlike each
+        other; the first column always."""
         known = self.stack.problem(trial.names)
-        slopes = jacobian(known, point_of(known, trial.values)[:, None])[1][:, 0] if trial.values else None
         left = errors(problem, points)
-        if slopes is not None and slopes.shape[1]:
+        rows = [row for row, name in enumerate(known.space.names) if name in following]
+        if rows:
+            slopes = jacobian(known, point_of(known, trial.values)[:, None])[1][:, 0, rows]
             basis = np.linalg.svd(slopes, full_matrices=False)[0]
             left = left - basis @ (basis.T @ left)
         order = np.argsort(np.einsum("ij,ij->j", left, left), kind="stable")

@@ -39,7 +39,7 @@ def headline(
 
 
 def warnings(
-    model: Model, records: Sequence[Record], final: Trial, alone: bool, noise: Noise, ties: Sequence[Tie]
+    model: Model, records: Sequence[Record], final: Trial, alone: bool, quiet: bool, ties: Sequence[Tie]
 ) -> tuple[str, ...]:
     """What a user must know before believing the names."""
     told = list(model.advice(records)) if not final.names & {"bias", "record-offset"} else []
@@ -53,10 +53,8 @@ def warnings(
         told.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
         )
-    if noise.floor == 0.0:
-        told.append(
-            "The data have no noise; differences below a few parts in ten thousand of the range are not judged."
-        )
+    if quiet:
+        told.append("The data have next to no noise; below a few parts in ten thousand of the range nothing is judged.")
     for one in ties:
         told.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")
     return tuple(told)

@@ -59,7 +59,7 @@ def make(seed: int, model: str, hidden: Sequence[str] | None = None, noise: floa
     """One case. hidden : by name; None draws none to three;  noise : share of the range; None draws it."""
     rng = default_rng([seed, sorted(MODELS).index(model)])
     if hidden is None:
-        hidden = tuple(sorted(rng.choice(EFFECTS, rng.integers(0, 4), replace=False)))
+        hidden = tuple(sorted(str(one) for one in rng.choice(EFFECTS, rng.integers(0, 4), replace=False)))
     share = rng.uniform(0.002, 0.01) if noise is None else noise
     amplitude, centre = MODELS[model]
     values = {name: value * rng.uniform(0.85, 1.15) for name, value in centre.items()}
