@@ -65,6 +65,7 @@ def main() -> None:
 @click.option("--out", type=folder, help="Results folder; default: results/NAME.")
 def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
+    from hysteresis_bench.diagnosis.study import is_diagnosis_study
     from hysteresis_bench.progress import progress_bar
     from hysteresis_bench.report import write_report
     from hysteresis_bench.report.console import print_summary
@@ -73,6 +74,8 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
     from hysteresis_bench.study.run import run_study
 
     console = _console()
+    if is_diagnosis_study(study):
+        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
     check_published_beside(study)
     try:
         with progress_bar(console) as tell:
@@ -89,6 +92,28 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
         )
     _say_path(console, "report", page)
     sys.exit(FAILED_TRIALS if len(failed) else DONE)
+
+
+def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console) -> int:
+    """A study of diagnosis; returns the exit code."""
+    from hysteresis_bench.diagnosis.study import Told, read_cases, run_diagnosis_study
+    from hysteresis_bench.report.closing_page import told, write_closing_page
+
+    def tell(step: Told) -> None:
+        if step.case:
+            said = (
+                step.case.reason or f"hidden {step.case.hidden or 'nothing'}: claimed {step.case.claimed or 'nothing'}"
+            )
+            console.print(f"{step.done}/{step.total} {step.case.bench}, {step.case.number}: {said}", highlight=False)
+
+    try:
+        results_folder = run_diagnosis_study(study, trials=trials, jobs=jobs, out=out, tell=tell)
+    except KeyboardInterrupt:
+        raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
+    for sentence in told(results_folder):
+        console.print(sentence, highlight=False)
+    _say_path(console, "report", write_closing_page(results_folder))
+    return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE
 
 
 @main.command()

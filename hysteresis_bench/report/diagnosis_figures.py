@@ -101,7 +101,7 @@ def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: 
 
 
 def confusion(
-    folder: Path, counts: Mapping[tuple[str, str], int], rows: Sequence[str], columns: Sequence[str]
+    folder: Path, name: str, counts: Mapping[tuple[str, str], int], rows: Sequence[str], columns: Sequence[str]
 ) -> Picture:
     """How often each hidden effect (row) was claimed as each effect (column)."""
 
@@ -120,7 +120,7 @@ def confusion(
 
     size = (1.9 + 0.36 * len(columns), 1.6 + 0.32 * len(rows))
     caption = "Hidden against claimed, in cases. Blue: the right name. Orange: another name, tied ones included."
-    return picture(folder, "confusion", size, "Confusion matrix; the table has the numbers.", caption, draw)
+    return picture(folder, name, size, "Confusion matrix; the table has the numbers.", caption, draw)
 
 
 def _fewer(rows: pd.DataFrame) -> pd.DataFrame:

@@ -8,19 +8,32 @@ import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, TimeoutError, wait
 from contextlib import contextmanager
+from typing import Any, Protocol, TypeVar
 
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.study.store import Outcome
-from hysteresis_bench.study.trial import Ticket
 
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 MEMORY_SHARE = 0.8
 """Share of the machine's memory that all workers together may take."""
 
 
+class Ended(Protocol):
+    """What a trial that ran to its end says of itself."""
+
+    @property
+    def status(self) -> str: ...
+
+    @property
+    def reason(self) -> str: ...
+
+
+T = TypeVar("T")
+E = TypeVar("E", bound=Ended)
+
+
 def run_tickets(
-    tickets: Sequence[Ticket], run: Callable[[Ticket], Outcome], jobs: int, timeout: float
-) -> Iterator[tuple[Ticket, Outcome | None, str, str]]:
+    tickets: Sequence[T], run: Callable[[T], E], jobs: int, timeout: float
+) -> Iterator[tuple[T, E | None, str, str]]:
     """Yields (ticket, outcome or None, status, reason) as trials finish, in no order.
 
     timeout : seconds a trial. Raises UserError where the caller's script starts it on being imported.
@@ -31,7 +44,7 @@ def run_tickets(
         raise UserError("run_study", 'guard the call in your script with `if __name__ == "__main__":`.')
     context = multiprocessing.get_context("spawn")  # a forked copy of a threaded parent may hang
     with _single_threaded_children(), ProcessPool(jobs, initializer=_limit, initargs=[jobs], context=context) as pool:
-        futures: dict[Future, Ticket] = {}
+        futures: dict[Future, T] = {}
         waiting = iter(tickets)
         try:
             while True:
@@ -47,7 +60,7 @@ def run_tickets(
             raise
 
 
-def _verdict(future: Future, timeout: float) -> tuple[Outcome | None, str, str]:
+def _verdict(future: Future, timeout: float) -> tuple[Any, str, str]:
     from pebble import ProcessExpired
 
     try:
