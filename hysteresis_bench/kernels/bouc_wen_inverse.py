@@ -7,6 +7,8 @@ With w = |du|, s its direction and g = s h as in `bouc_wen`, an increment moves 
 and where v(u) is monotonic F rises from 0 without bound: the sign of the wanted change is the direction, and one
 root gives the increment. F uses the forward kernel's own increment, the crossing of h = 0 included, so that
 nothing is approximated and nothing drifts: every sample aims at v itself, not at its change.
+
+The forward kernel cuts rates at STEEPEST; here they are not. The two differ where (gamma - beta) |du| exceeds it.
 """
 
 from __future__ import annotations
