@@ -28,8 +28,7 @@ def _advanced(s: NDArray, z: float) -> float:
         if s[POWER] != 1.0:
             g = _integrated(g, drive, along, against, s[POWER], width, s[BOUND]) if drive > 0.0 else g
         else:
-            along, against = max(along, -STEEPEST / width), max(against, -STEEPEST / width)
-            rate = against if g < 0.0 else along
+            rate = max(against if g < 0.0 else along, -STEEPEST / width)  # cut as in `bouc_wen`, against overflow
             free = g + (drive - rate * g) * _weakened(rate, width)
             g = _regrown(g, drive, along, against, width) if g < 0.0 and free > 0.0 else free
             g = min(max(g, -s[BOUND]), s[BOUND])
