@@ -36,6 +36,11 @@ class System:
         """The free parameters with their own default boxes."""
         return self._free([part.parameters for _, part in self._stack])
 
+    def refusals(self) -> list[str]:
+        """Why fixed parameters cannot have their values, a sentence each."""
+        every = replace(self, fixed={}).parameters
+        return [reason for q in every if q.name in self.fixed and (reason := q.refuses(self.fixed[q.name]))]
+
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The free parameters with boxes that suit these records."""
         return self._free([part.box(records) for _, part in self._stack])

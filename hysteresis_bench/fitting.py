@@ -133,9 +133,10 @@ def _system(
     system = System(built, registry.build_effects(built, effects))
     names = [parameter.name for parameter in system.parameters]
     unknown = [f'fixed: no parameter "{name}". {nearest(name, names)}' for name in fixed if name not in names]
-    if unknown:
-        raise UserError("fit", unknown)
-    return replace(system, fixed=fixed)
+    known = replace(system, fixed=fixed)
+    if unknown or known.refusals():
+        raise UserError("fit", unknown + [f"fixed {reason}" for reason in known.refusals()])
+    return known
 
 
 def _check(system: System, dataset: Dataset, settle: bool) -> None:

@@ -22,6 +22,7 @@ class Parameter:
     unit : may name {input}, {output} and {time}, replaced by the units of the data
     scaling : how the unit interval maps to the box: linear, or log where decades matter
     null : the value that switches an effect off; None for a parameter that switches nothing
+    positive : whether the model makes sense only above 0, as with a width
     """
 
     name: str
@@ -31,6 +32,7 @@ class Parameter:
     scaling: Scaling = "linear"
     null: float | None = None
     meaning: str = ""
+    positive: bool = False
 
     def within(self, lower: float, upper: float, scaling: Scaling | None = None) -> Parameter:
         """The same parameter in another box."""
@@ -49,9 +51,17 @@ class Parameter:
             found.append(f"{self.name}: low {self.lower} is above high {self.upper}.")
         elif self.lower == self.upper:
             found.append(f"{self.name}: low and high are both {self.lower}; leave room between them.")
-        if self.scaling == "log" and self.lower <= 0:
+        if self.positive and self.lower <= 0:
+            found.append(f"{self.name}: must be above 0; its low bound is {self.lower:g}.")
+        elif self.scaling == "log" and self.lower <= 0:
             found.append(f"{self.name}: log scaling needs a low bound above 0, not {self.lower}.")
         return found
+
+    def refuses(self, value: float) -> str:
+        """Why the parameter cannot have this value, or an empty string. It may lie outside the box."""
+        if not np.isfinite(value):
+            return f"{self.name} = {value} must be finite."
+        return f"{self.name} = {value:g} must be above 0." if self.positive and value <= 0 else ""
 
 
 @dataclass(frozen=True)

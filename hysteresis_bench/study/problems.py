@@ -38,7 +38,7 @@ def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
     if spec.settle:
         dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
     system = build_system(spec.model, spec.settings, spec.effects, spec.fixed)
-    faults = inapplicable(system, dataset)
+    faults = inapplicable(system, dataset) + [f"fixed {reason}" for reason in system.refusals()]
     boxes = system.box(dataset.fitted) if spec.box == "data" else system.parameters
     parameters, more = boxed(boxes, spec)
     if faults + more:

@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.compose import System
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.fitting import fit_records
 from hysteresis_bench.identifiability import analyse
 from hysteresis_bench.identify import polish
 from hysteresis_bench.loss import LOSSES
@@ -109,6 +111,30 @@ def test_advice_on_data_that_cannot_be_followed():
     assert "twice the current's frequency" in told[2]
     assert "below 0 um" in told[3]
     assert told[4] == ""
+
+
+def test_advice_on_a_field_that_switches_nothing_and_on_less_than_a_period():
+    weak = Record(TIME, 1e-3 * CURRENT, 1e-3 * CURRENT, "weak")
+    assert "never reaches the switching range" in " ".join(FreeEnergyGma().advice((weak,)))
+    biased = FreeEnergyGma(bias_field=40e3)
+    noise = 0.01 * np.random.default_rng(0).standard_normal(400)
+    half = Record(TIME[:400], CURRENT[:400] + noise, 20 + CURRENT[:400], "half")
+    assert "less than a period" in " ".join(biased.advice((half,)))
+    assert biased.advice((Record(TIME, CURRENT, 20 + CURRENT),)) == ()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "told"),
+    [
+        ({"fixed": {"M_s": 0.0}}, "M_s = 0 must be above 0"),
+        ({"bounds": {"b": (-1.0, 2.0)}}, "b: must be above 0"),
+        ({"fixed": {"c": np.nan}}, "c = nan must be finite"),
+    ],
+)
+def test_widths_and_saturation_must_be_above_zero(arguments, told):
+    dataset = GmaRig().measure("sine-50hz", np.random.default_rng(0))
+    with pytest.raises(UserError, match=told):
+        fit_records(dataset, "free-energy-gma", **arguments)
 
 
 def test_refuses_a_saturation_of_zero_and_impossible_settings():

@@ -29,3 +29,13 @@ def test_every_fault_of_a_box_is_told():
     assert len(Parameter("a", 1.0, -1.0, scaling="log").faults()) == 1
     assert len(Parameter("a", -1.0, -2.0, scaling="log").faults()) == 2
     assert not Parameter("a", 0.0, 1.0).faults()
+    assert "above 0" in Parameter("a", 0.0, 1.0, positive=True).faults()[0]
+    assert len(Parameter("a", 0.0, 1.0, scaling="log", positive=True).faults()) == 1
+
+
+def test_a_value_that_makes_no_sense_is_refused():
+    width = Parameter("b", 1.0, 2.0, positive=True)
+    assert "above 0" in width.refuses(0.0)
+    assert "finite" in width.refuses(np.nan)
+    assert not width.refuses(5.0)
+    assert not Parameter("a", 1.0, 2.0).refuses(-1.0)

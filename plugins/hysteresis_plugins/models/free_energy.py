@@ -49,10 +49,12 @@ class FreeEnergy(Model):
 
     parameters = (
         Parameter("M_R", 0.01, 10.0, "{output}", "log", meaning="remanence of a kernel"),
-        Parameter("eta", 0.1, 1000.0, "{input}/{output}", "log", meaning="slope of a kernel, dH/dM"),
-        Parameter("H_c", 0.001, 2.0, "{input}", "log", meaning="mean coercive field"),
-        Parameter("b", 0.01, 5.0, "{input}", "log", meaning="width of the interaction field's density"),
-        Parameter("c", 0.02, 1.5, "1", "log", meaning="width of the coercive field's density, in ln H_c"),
+        Parameter("eta", 0.1, 1000.0, "{input}/{output}", "log", meaning="slope of a kernel, dH/dM", positive=True),
+        Parameter("H_c", 0.001, 2.0, "{input}", "log", meaning="mean coercive field", positive=True),
+        Parameter("b", 0.01, 5.0, "{input}", "log", meaning="width of the interaction field's density", positive=True),
+        Parameter(
+            "c", 0.02, 1.5, "1", "log", meaning="width of the coercive field's density, in ln H_c", positive=True
+        ),
         Parameter("alpha", 0.01, 1000.0, "1/{input}^2", "log", meaning="scale of the densities"),
     )
     linear = ("M_R",)
@@ -112,7 +114,10 @@ def unswitched(name: str, field: NDArray) -> tuple[str, ...]:
     """Sentences on why a field over time cannot tell the widths of the densities; none where it can."""
     if np.ptp(field) == 0.0:
         return (f"record {name}: the field never changes; there is nothing to identify",)
-    steps = np.diff(field)
+    from hysteresis_bench.kernels.play import play
+
+    # a play of 2 % of the range either way does not follow the noise of a measured input
+    steps = np.diff(play(field[:, None], np.array([0.02 * np.ptp(field)]))[:, 0])
     turns = np.count_nonzero(np.diff(np.sign(steps[steps != 0.0])))
     if turns == 0:
         return (f"record {name}: the field never turns; without a loop H_c and c cannot be told",)

@@ -40,6 +40,9 @@ REDUCED = {"lambda_s": 1.0e-3, "M_s": 7.65e5, "alpha": 2.0e-9}
 """What may be fixed so that the other five can be found. λ_s and M_s of Terfenol-D as in Dapino, Smith,
 Flatau, IEEE Trans. Magnetics 36 (2000) 545; α such that the densities' mass is of the order of 1."""
 
+LEAST_COERCIVE = 200.0
+"""A/m; the softest material that the box allows. A smaller field switches next to nothing."""
+
 
 @dataclass(frozen=True)
 class FreeEnergyGma(Model):
@@ -58,12 +61,14 @@ class FreeEnergyGma(Model):
 
     parameters = (
         Parameter("lambda_s", 3e-4, 3e-3, "1", "log", meaning="saturation magnetostriction"),
-        Parameter("M_s", 3e5, 1.5e6, "A/m", "log", meaning="saturation magnetization"),
+        Parameter("M_s", 3e5, 1.5e6, "A/m", "log", meaning="saturation magnetization", positive=True),
         Parameter("M_R", 1e4, 5e6, "A/m", "log", meaning="remanence of a kernel"),
-        Parameter("eta", 0.01, 100.0, "1", "log", meaning="slope of a kernel, dH/dM"),
-        Parameter("H_c", 200.0, 5e4, "A/m", "log", meaning="mean coercive field"),
-        Parameter("b", 1e3, 2e5, "A/m", "log", meaning="width of the interaction field's density"),
-        Parameter("c", 0.02, 1.5, "1", "log", meaning="width of the coercive field's density, in ln H_c"),
+        Parameter("eta", 0.01, 100.0, "1", "log", meaning="slope of a kernel, dH/dM", positive=True),
+        Parameter("H_c", LEAST_COERCIVE, 5e4, "A/m", "log", meaning="mean coercive field", positive=True),
+        Parameter("b", 1e3, 2e5, "A/m", "log", meaning="width of the interaction field's density", positive=True),
+        Parameter(
+            "c", 0.02, 1.5, "1", "log", meaning="width of the coercive field's density, in ln H_c", positive=True
+        ),
         Parameter("alpha", 1e-10, 1e-7, "m^2/A^2", "log", meaning="scale of the densities"),
     )
 
@@ -127,6 +132,12 @@ class FreeEnergyGma(Model):
         for record in records:
             applied = self.field(record.signal)[:, 0]
             sentences += unswitched(record.name, applied)
+            reach, least = float(np.max(np.abs(applied))), LEAST_COERCIVE
+            if reach < least:
+                sentences.append(
+                    f"record {record.name}: the field stays below {reach:.3g} A/m and never reaches the switching "
+                    f"range, which begins at some {least:g} A/m; there is nothing to identify. Is the input in A?"
+                )
             biased = np.any(applied != self.turns * record.input)
             if not biased and np.min(record.input) < 0.0 < np.max(record.input):
                 sentences.append(
