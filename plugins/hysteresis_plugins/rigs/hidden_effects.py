@@ -103,10 +103,12 @@ class HiddenEffects(Rig):
 
     @cached_property
     def names(self) -> tuple[str, ...]:
-        """What is hidden."""
-        if self.effects:
+        """What is hidden: one effect after the other as draws go on, and others at random beside it."""
+        if self.effects or not self.hide:
             return tuple(sorted(self.effects))
-        return tuple(sorted(self._stream("names").choice(EFFECTS, self.hide, replace=False)))
+        shuffled = [str(name) for name in default_rng(sorted(MODELS).index(self.model)).permutation(EFFECTS)]
+        first = shuffled.pop(self.draw % len(EFFECTS))
+        return tuple(sorted([first, *map(str, self._stream("names").choice(shuffled, self.hide - 1, replace=False))]))
 
     @cached_property
     def _noise_rms(self) -> float:
