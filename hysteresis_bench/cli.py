@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.table import Table
 
 from hysteresis_bench import registry
+from hysteresis_bench.control.command import control
 from hysteresis_bench.errors import UserError, nearest
 
 DONE, FAILED_TRIALS, USER_AT_FAULT = 0, 1, 2
@@ -310,3 +311,6 @@ def _values(texts: Sequence[str]) -> dict[str, float]:
 
 def _say_path(console: Console, what: str, path: Path) -> None:
     console.print(f"{what}: {path}", highlight=False, soft_wrap=True)
+
+
+main.add_command(control)
