@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hysteresis_bench.report.summary import summarise
+import pandas as pd
+
+from hysteresis_bench.report.summary import other_budgets, summarise
 from hysteresis_bench.study.results import REPORT, SUMMARY, read_results
 
 __all__ = ["summarise", "write_report"]
@@ -20,7 +22,8 @@ def write_report(folder: Path) -> Path:
 
     results = read_results(folder)
     summary = summarise(results)
-    summary.to_csv(folder / SUMMARY, index=False)
+    parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
+    pd.concat(part for part in parts if not part.empty).to_csv(folder / SUMMARY, index=False)
     page = folder / REPORT
     page.write_text(study_page(results, summary, folder), encoding="utf-8")
     return page

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,7 @@ from hysteresis_bench.report.parameters_by_iteration import parameters_by_iterat
 from hysteresis_bench.report.published import Published, check_published
 from hysteresis_bench.report.responses import drive, errors, loop
 from hysteresis_bench.report.stages_section import stage_views
-from hysteresis_bench.report.summary import EXACT, Problem, at_iterations, problems
+from hysteresis_bench.report.summary import EXACT, Problem, at_iterations, other_budgets, problems, summarise
 from hysteresis_bench.report.theme import Picture
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS, Results
 
@@ -29,6 +29,7 @@ HEADINGS = (
     ("published", "Published beside ours"),
     ("claims", "Which of the paper’s claims hold here"),
     ("optimizers", "All optimizers at equal evaluations"),
+    ("budgets", "At other budgets"),
     ("iterations", "At the paper’s number of iterations"),
     ("searches", "How the searches went"),
     ("signals", "Drive and response, loops, errors"),
@@ -79,10 +80,11 @@ DEFINITIONS = (
 def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
     """The whole page; its figures are written to the folder. summary : of summarise(results)"""
     published = check_published(results.published)
-    here = problems(results)
-    judged = claims.judge(published, here)
+    here, everybody = problems(results), problems(results, any_budget=True)
+    judged = claims.judge(published, everybody)
     findings = audit(published)
-    looks = choose(here, results.study.reference, published.optimizers)
+    reference = here[0].reference if here else results.study.reference
+    looks = choose(here, reference, published.optimizers)
     budget = results.study.budget
     drawn = [(i, problem) for i, problem in enumerate(here, 1) if math.isfinite(problem.best_known)]
     count = published.iterations
@@ -104,19 +106,20 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
         "facts": facts(results),
         "plugins": plugins(results),
         "published": published,
-        "beside": [beside.results_beside(published, here), *beside.tables_beside(published, results, here)]
+        "beside": [beside.results_beside(published, everybody), *beside.tables_beside(published, results, everybody)]
         if published.result or published.tables
         else [],
         "claims": tables.claims(judged) if judged else None,
         "level": stats.LEVEL,
-        "reference": results.study.reference,
+        "reference": reference,
         "definition": SUCCESS,
         "optimizers": [tables.optimizers(problem, summary) for problem in here],
+        "budgets": list(at_other_budgets(results)),
         "iterations": [tables.iterations(iterations, problem, count) for problem in here] if count else [],
         "held_out": [tables.held_out(problem, summary) for problem in here],
         "by_record": by_records(results, here, published),
         "movements": movements(results, here, published, folder),
-        "chosen": chosen(looks, results.study.reference, published),
+        "chosen": chosen(looks, reference, published),
         "trials": [all_trials(folder, f"trials-{i}", problem, looks) for i, problem in drawn],
         "convergence": [convergence(folder, f"convergence-{i}", p, looks, budget) for i, p in drawn],
         "runtime": [runtime(folder, f"runtime-{i}", p, looks, budget) for i, p in drawn],
@@ -231,7 +234,14 @@ def signals(
 def shown(problem: Problem, published: Published, present: Iterable[str]) -> list[str]:
     """The paper's optimizers, the reference and the best of a problem, where they are present."""
     wanted = (*published.optimizers, problem.reference, problem.winner)
-    return [label for label in dict.fromkeys(wanted) if label in set(present)]
+    return [label for label in dict.fromkeys(wanted) if label in set(present) and label in problem.labels]
+
+
+def at_other_budgets(results: Results) -> Iterator[tuple[int, list[Table]]]:
+    """(budget, a table a problem) of the optimizers that have another budget than the study's."""
+    for budget in other_budgets(results):
+        summary = summarise(results, budget)
+        yield budget, [tables.optimizers(problem, summary) for problem in problems(results, budget)]
 
 
 def by_records(results: Results, here: list[Problem], published: Published) -> list[Table]:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hysteresis_bench import stats
 from hysteresis_bench.study.results import FINISHED, Results
+from hysteresis_bench.study.study_file import Study
 
 INF = float("inf")
 NEAR = 1.01
@@ -141,13 +142,13 @@ class Problem:
         return [label for label in self.ranked if label in same]
 
 
-def problems(results: Results, any_budget: bool = False) -> list[Problem]:
-    """Every problem of the study that has trials.
+def problems(results: Results, budget: int | None = None, any_budget: bool = False) -> list[Problem]:
+    """Every problem of the study that has trials of optimizers with this budget, the study's own without one.
 
-    any_budget : with the optimizers to which the study gives another budget than to everybody; they are no match
-    for the others at equal evaluations
+    any_budget : whatever their budget, which is no match at equal evaluations
     """
-    other = {spec.name for spec in results.study.optimizer if results.study.budget_of(spec) != results.study.budget}
+    mine = budget or results.study.budget
+    other = {spec.name for spec in results.study.optimizer if results.study.budget_of(spec) != mine}
     found = []
     for spec in results.study.problem:
         here = results.trials[results.trials["problem"] == spec.name]
@@ -159,8 +160,23 @@ def problems(results: Results, any_budget: bool = False) -> list[Problem]:
             if problem == spec.name
         }
         if rows:
-            found.append(Problem(spec.name, list(rows), rows, traces, results.study.reference))
+            found.append(Problem(spec.name, list(rows), rows, traces, _reference(results.study, labels)))
     return found
+
+
+def _reference(study: Study, labels: list[str]) -> str:
+    """The study's reference, or where it has another budget the same algorithm with the same settings."""
+    if study.reference in labels:
+        return study.reference
+    same = {spec.name: (spec.plugin, spec.settings) for spec in study.optimizer}
+    twins = [label for label in labels if label in same and same[label] == same.get(study.reference)]
+    return twins[0] if twins else study.reference
+
+
+def other_budgets(results: Results) -> list[int]:
+    """Budgets that optimizers have beside the study's, smallest first."""
+    found = {results.study.budget_of(spec) for spec in results.study.optimizer}
+    return sorted(found - {results.study.budget})
 
 
 def _labels(results: Results, rows: pd.DataFrame) -> list[str]:
@@ -171,13 +187,14 @@ def _labels(results: Results, rows: pd.DataFrame) -> list[str]:
     ]
 
 
-def summarise(results: Results) -> pd.DataFrame:
+def summarise(results: Results, budget: int | None = None) -> pd.DataFrame:
     """One row a problem and optimizer, best median first; the columns of summary.csv.
 
     Failed trials count as infinitely bad in medians, quartiles, ranks and tests; p-values are empty below
-    14 common trials.
+    14 common trials. budget : of the optimizers that are compared, the study's own without one
     """
-    return pd.DataFrame([_row(problem, label) for problem in problems(results) for label in problem.ranked])
+    here = problems(results, budget)
+    return pd.DataFrame([_row(problem, label) for problem in here for label in problem.ranked])
 
 
 def _row(problem: Problem, label: str) -> dict[str, object]:
