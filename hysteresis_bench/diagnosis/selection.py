@@ -64,6 +64,7 @@ class Selection:
     candidates: tuple[str, ...]
     rounds: list[Round] = field(default_factory=list)
     known: dict[frozenset[str], Trial] = field(default_factory=dict)
+    sought: set[frozenset[str]] = field(default_factory=set)
 
     def run(self, base: Trial) -> Trial:
         """From the bare model to the last adopted effect."""
@@ -86,7 +87,7 @@ class Selection:
 
     def alternatives(self, current: Trial, name: str) -> dict[str, Trial]:
         """The systems with another effect in the place of an adopted one."""
-        return self._extensions(self.without(current, name), exclude=(name,))
+        return self._sought(self._extensions(self.without(current, name), current))
 
     def without(self, trial: Trial, name: str) -> Trial:
         return self._ask([("reduced", trial, name)], [trial.names - {name}])[0]
@@ -124,7 +125,9 @@ class Selection:
         return min(alike, key=lambda trial: (len(trial.at_bound) > 0, len(trial.values), sorted(trial.names)))
 
     def _round(self, current: Trial) -> Round:
-        trials = self._sought(self._extensions(current))
+        trials = self._extensions(current)
+        if min((trial.rmse for trial in trials.values()), default=0.0) > MATTERS * self.floor:
+            trials = self._sought(trials)
         tests = {name: self.bench.test(current, trial) for name, trial in trials.items()}
         gains = {name: advantage(t.left_out, current.left_out, self.bench.blocks) for name, t in trials.items()}
         passed = {name: t for name, t in trials.items() if self.needed(current, t, len(self.candidates))}
@@ -155,7 +158,7 @@ class Selection:
 
     def _exchanged(self, current: Trial) -> Trial | None:
         for name in self.adopted(current):
-            rivals = list(self._sought(self.alternatives(current, name)).values())
+            rivals = list(self.alternatives(current, name).values())
             if not rivals:
                 continue
             best = self.simplest([current, *rivals])
@@ -165,25 +168,28 @@ class Selection:
                     return self.bench.refitted(best)
         return None
 
-    def _extensions(self, trial: Trial, exclude: Sequence[str] = ()) -> dict[str, Trial]:
-        names = [name for name in self.candidates if name not in trial.names and name not in exclude]
-        found = self._ask([("extended", trial, name) for name in names], [trial.names | {name} for name in names])
-        return dict(zip(names, found, strict=True))
+    def _extensions(self, trial: Trial, instead_of: Trial | None = None) -> dict[str, Trial]:
+        """instead_of : a system with one effect more, in the place of which others are tried"""
+        names = [n for n in self.candidates if n not in trial.names and (not instead_of or n not in instead_of.names)]
+        other = instead_of.values if instead_of else None
+        keys = [trial.names | {name} for name in names]
+        return dict(zip(names, self._ask([("extended", trial, name, other) for name in names], keys), strict=True))
 
     def _sought(self, trials: dict[str, Trial]) -> dict[str, Trial]:
         """The contenders are fitted again from other starts, where there is more than one effect to be bent."""
         least = min((trial.rmse for trial in trials.values()), default=0.0)
-        if least < MATTERS * self.floor:
-            return trials
         ranked = sorted(trials, key=lambda name: trials[name].rmse)
         close = [
             name
             for name in ranked[:CONTENDERS]
-            if trials[name].rmse < WITHIN * least and len(self.adopted(trials[name])) > 1
+            if trials[name].rmse < WITHIN * least
+            and len(self.adopted(trials[name])) > 1
+            and trials[name].names not in self.sought
         ]
         again = self.crew.map([("refitted", trials[name]) for name in close])
         for name, trial in zip(close, again, strict=True):
             self.known[trial.names] = trial
+            self.sought.add(trial.names)
             trials = {**trials, name: trial}
         return trials
 

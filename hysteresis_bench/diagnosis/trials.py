@@ -85,8 +85,12 @@ class Bench:
         points = np.column_stack([*starts, self._random(problem, centre)])
         return self._finished(problem, names, points)
 
-    def extended(self, trial: Trial, name: str) -> Trial:
-        """With one effect more, from several values of its own parameters."""
+    def extended(self, trial: Trial, name: str, other: Mapping[str, float] | None = None) -> Trial:
+        """With one effect more, from several values of its own parameters.
+
+        other : further values of the known parameters from which to begin, such as those of a system in which
+        another effect stands in this one's place
+        """
         names = trial.names | {name}
         problem = self.stack.problem(names)
         new = [p for p in problem.space.parameters if p.name not in trial.values]
@@ -94,6 +98,10 @@ class Bench:
         points = np.column_stack([point_of(problem, {**trial.values, **values}) for values in grid])
         if new:
             points = points[:, self._promising(trial, problem, points, trial.values)]
+        if other is not None:
+            exchanged = np.column_stack([point_of(problem, {**trial.values, **other, **values}) for values in grid])
+            best = np.argsort(problem.squares(exchanged), kind="stable")[:CHAINS]
+            points = np.column_stack([points, exchanged[:, best]])
         return self._finished(problem, names, points)
 
     def reduced(self, trial: Trial, name: str) -> Trial:
