@@ -5,6 +5,8 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, TimeoutError, wait
 from contextlib import contextmanager
@@ -79,13 +81,20 @@ def _verdict(future: Future, timeout: float) -> tuple[Any, str, str]:
 
 
 def _limit(jobs: int) -> None:
-    """Give a worker its share of the memory, and leave Ctrl-C to the parent."""
+    """Give a worker its share of the memory, leave Ctrl-C to the parent, and end with it, however it ends."""
     import resource
 
+    threading.Thread(target=_end_with, args=[os.getppid()], daemon=True).start()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     total = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     share = int(MEMORY_SHARE * total / jobs)
     resource.setrlimit(resource.RLIMIT_DATA, (share, resource.getrlimit(resource.RLIMIT_DATA)[1]))
+
+
+def _end_with(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(1)
 
 
 @contextmanager

@@ -174,3 +174,25 @@ def test_changed_data_are_another_study(finished, tmp_path):
     done = bench("run", study, "--trials", 1)
     assert done.returncode == 2
     assert "cubic.csv has changed" in done.stderr
+
+
+def test_workers_end_with_a_killed_parent(tmp_path):
+    study = write_study(tmp_path, ["faulty-hangs"])
+    command = [*COMMAND, "run", str(study), "--jobs", "2"]
+    running = subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def children() -> list[Path]:
+        stats = [(path, path.read_text().rpartition(")")[2].split()) for path in Path("/proc").glob("[0-9]*/stat")]
+        return [path for path, fields in stats if fields[1] == str(running.pid)]
+
+    deadline = time.monotonic() + 60
+    while len(children()) < 3 and time.monotonic() < deadline:  # two workers and multiprocessing's tracker
+        time.sleep(0.2)
+    workers = children()
+    assert len(workers) >= 3
+    time.sleep(3)
+    running.kill()
+    running.wait()
+    while any(path.exists() for path in workers) and time.monotonic() < deadline + 30:
+        time.sleep(0.2)
+    assert not any(path.exists() for path in workers)
