@@ -18,9 +18,11 @@ from hysteresis_bench.report.published import Table as Printed
 from hysteresis_bench.report.responses import named
 from hysteresis_bench.report.theme import MUTED, SERIES, Picture, picture
 from hysteresis_bench.study.results import Results
-from hysteresis_bench.study.stages import FITTED, HELD, LARGEST, RMSE, STAGED
+from hysteresis_bench.study.stages import FITTED, HELD, LARGEST, RMSE, STAGED, TRACKING
 from hysteresis_bench.study.study_file import StageSpec
 
+PAPERS = "sliding-mode"
+"""The controller that is the paper's: equation (15) beside the inverse."""
 CYCLES = 3
 """Cycles of a periodic record that a figure shows: all of them would be a smear."""
 
@@ -46,7 +48,8 @@ def stage_views(results: Results, published: Published, folder: Path) -> list[St
 def of_a_stage(table: Printed, results: Results) -> bool:
     """Does a printed table stand beside ours here, and so not among the others?"""
     fitted = any(set(spec.fit) <= set(table.columns) for spec in results.study.stage)
-    return fitted or (bool(results.study.stage) and "record" in table.columns)
+    tracked = "reference" in table.columns and any(spec.control for spec in results.study.stage)
+    return fitted or tracked or (bool(results.study.stage) and "record" in table.columns)
 
 
 def _view(i: int, spec: StageSpec, results: Results, published: Published, folder: Path) -> StageView:
@@ -59,6 +62,8 @@ def _view(i: int, spec: StageSpec, results: Results, published: Published, folde
         tables += [_check(spec, rows, checked, quantity, unit) for quantity in (LARGEST, RMSE)]
     if spec.check and spec.beside:
         tables.append(_ways(spec, rows, unit))
+    if spec.control:
+        tables.append(_tracking(spec, rows, published, unit))
     drawn = results.responses
     drawn = drawn[drawn["problem"] == spec.name] if not drawn.empty else drawn
     records = dict(list(drawn.groupby("record", sort=False))) if not drawn.empty else {}
@@ -219,6 +224,32 @@ def _ways(spec: StageSpec, rows: pd.DataFrame, unit: str) -> Table:
             sides.append(every | {"mean of the check": _mean(spec, rows, label, way, RMSE)})
     cells = [[name, *(number(side[name]) for side in sides)] for name in (sides[0] if sides else {})]
     return Table(f"{spec.name}: staged against {spec.beside}, {named(RMSE, {'output': unit}, 'output')}", header, cells)
+
+
+def _tracking(spec: StageSpec, rows: pd.DataFrame, published: Published, unit: str) -> Table:
+    """Closed loop on the rig, every controller on every reference; the paper's beside its own controller."""
+    printed = next((table.columns for table in published.tables.values() if "reference" in table.columns), {})
+    here = rows[rows["controller"].notna()]
+    pairs = here[["name", "controller"]].drop_duplicates()
+    header, cells = ["Reference", "Controller"], []
+    for label in spec.control:
+        for quantity in TRACKING.values():
+            header += [f"{label}, {quantity}, published", "ours"]
+    for reference, controller in pairs.itertuples(index=False):
+        row: list[str | Cell] = [Cell(reference, "line"), Cell(controller, "line")]
+        for label in spec.control:
+            for key, quantity in TRACKING.items():
+                column = printed.get(f"{label}_{key.removeprefix('t_')}")
+                theirs = dict(zip(printed["reference"], column, strict=True)).get(reference) if column else None
+                mine = here[(here["name"] == reference) & (here["controller"] == controller)]
+                mine = mine[(mine["optimizer"] == label) & (mine["quantity"] == quantity)]["value"]
+                row += [number(theirs) if controller == PAPERS else NONE, number(None if mine.empty else mine.iloc[0])]
+        cells.append(row)
+    note = f"The paper's numbers stand beside {PAPERS}, its own controller; its settings are not known, ours are tuned "
+    note += "from the model. Largest and RMS error of the true displacement, where the reference is scored."
+    return Table(
+        f"{spec.name}: closed loop on the rig, {named('errors', {'output': unit}, 'output')}", header, cells, note
+    )
 
 
 def _window(rows: pd.DataFrame) -> pd.DataFrame:

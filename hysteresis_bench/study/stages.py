@@ -11,7 +11,10 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from hysteresis_bench import registry
+from hysteresis_bench.accuracy import accuracy
 from hysteresis_bench.compose import System
+from hysteresis_bench.model_file import Estimate, FittedModel
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 from hysteresis_bench.study.linear_section import fitted
@@ -19,8 +22,9 @@ from hysteresis_bench.study.problems import Built, build_problem, build_system
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import StageSpec, Study
 
-COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "value", "standard_error", "unit", "fault")
+COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")
 STAGED, HELD, FITTED, LARGEST, RMSE = "staged", "held", "fitted", "largest error", "rmse"
+TRACKING = {"t_error": "largest tracking error", "t_rmse": "tracking rmse"}
 BEST = "best of all"
 
 
@@ -60,6 +64,8 @@ def run_stages(
                 rows += [about | row for row in _errors(record, simulated)]
                 if simulated is not None and whole.way == STAGED and role == "check":
                     parts.append(_response(stage.name, whole.optimizer, record, role, simulated))
+            if whole.optimizer in stage.control and whole.way == STAGED and not whole.fault:
+                rows += [about | row for row in _tracked(stage, study, whole, data)]
     return pd.DataFrame(rows, columns=list(COLUMNS)), pd.concat(parts) if parts else pd.DataFrame()
 
 
@@ -115,6 +121,27 @@ def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: Sy
     for name, value, error in zip(stage.fit, section.values, section.standard_errors, strict=True):
         rows.append(_row(FITTED, name, value, units[name], error))
     return Whole(label, STAGED, system, section.values, tuple(rows), section.fault)
+
+
+def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Iterator[dict[str, Any]]:
+    """Every controller along every reference, on the rig; a row with the fault where the model allows none."""
+    from hysteresis_bench.control.comparison import compare  # needs scipy, and control is not part of most studies
+
+    after = next(spec for spec in study.problem if spec.name == stage.after)
+    assert after.rig is not None
+    found = {row["name"]: row for row in whole.rows}
+    estimates = {name: Estimate(row["value"], row["standard_error"], row["unit"]) for name, row in found.items()}
+    error = {"fitted": accuracy(whole.system, data.dataset.fitted, whole.values).as_dict()}
+    fitted_model = FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
+    rig = registry.build("rigs", after.rig, after.rig_settings)
+    try:
+        scores = compare(fitted_model, rig, after.rig, seed=study.seed).scores
+    except ValueError as fault:
+        yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
+        return
+    for score in scores.to_dict("records"):
+        for key, quantity in TRACKING.items():
+            yield _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
 
 
 def _simulated(whole: Whole, record: Record) -> NDArray:

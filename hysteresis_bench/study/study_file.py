@@ -89,6 +89,7 @@ class StageSpec(_Strict):
     fit : gain, damping and stiffness of the linear section, by the model's names and in its order
     fitted, check : experiments or records to fit and to check the whole model on
     beside : a problem that finds all parameters at once, for comparison
+    control : labels whose staged model is put to work in closed loop on the problem's rig
     """
 
     name: str
@@ -100,6 +101,7 @@ class StageSpec(_Strict):
     fitted: list[str] = Field(min_length=1)
     check: list[str] = []
     beside: str | None = None
+    control: list[str] = []
 
 
 class Study(_Strict):
@@ -239,6 +241,10 @@ def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
     for key in ("after", "beside"):
         if key in spec and spec[key] not in problems:
             found.append(f'{key}: no problem "{spec[key]}". {nearest(str(spec[key]), problems)}')
+    for label in set(_listed(spec, "control")) - set(_listed(spec, "optimizers")):
+        found.append(f'control: "{label}" is not among the optimizers of this stage.')
+    if spec.get("control") and not problems.get(str(spec.get("after")), {}).get("rig"):
+        found.append(f'control: "{spec.get("after")}" has no rig to control.')
     source = {key: value for key, value in problems.get(str(spec.get("after")), {}).items() if key.startswith("rig")}
     found += _problem_faults(source | {"fitted": _listed(spec, "fitted"), "held_out": _listed(spec, "check")})
     names, known = _parameter_names(spec), _parameter_names(problems.get(str(spec.get("after")), {}))
