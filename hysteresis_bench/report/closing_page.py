@@ -10,7 +10,7 @@ import numpy as np
 from hysteresis_bench.diagnosis.study import CASES, CONFUSION, NOTHING, STUDY, read_cases, read_diagnosis_study
 from hysteresis_bench.diagnosis.study_case import Case
 from hysteresis_bench.report.diagnosis_figures import confusion
-from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, render, seconds
+from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, render, whole
 from hysteresis_bench.report.theme import Picture
 from hysteresis_bench.stats import wilson
 
@@ -88,7 +88,8 @@ def _share(hits: Sequence[bool]) -> str:
         return "none of none"
     low, high = wilson(sum(hits), len(hits))
     mean = sum(hits) / len(hits)
-    return f"{sum(hits)} of {len(hits)} ({100 * mean:.0f} %; 95 % interval {100 * low:.0f} to {100 * high:.0f} %)"
+    shares = [f"{100 * share:.0f}\u202f%" for share in (mean, low, high)]
+    return f"{sum(hits)} of {len(hits)} ({shares[0]}; 95\u202f% interval {shares[1]} to {shares[2]})"
 
 
 def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> tuple[str, Picture, Table] | None:
@@ -126,10 +127,10 @@ def _benches(names: Sequence[str], cases: Sequence[Case]) -> Table:
                     name,
                     Cell(f"{right} of {len(mine)}", "good" if right == len(mine) else "bad"),
                     *(number(_median([getattr(c, key) for c in mine]), 3) for key in ("before", "after", "fresh")),
-                    seconds(_median([case.seconds for case in mine])),
+                    whole(_median([case.seconds for case in mine])),
                 ]
             )
-    header = ["Bench", "Right", "Held out, before", "Held out, after", "Fresh, after", "Time"]
+    header = ["Bench", "Right", "Held out, before", "Held out, after", "Fresh, after", "Seconds"]
     return Table("Bench by bench", header, rows, note="Median RMSE over the noise; 1 is as good as it gets.")
 
 

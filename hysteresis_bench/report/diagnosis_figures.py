@@ -19,7 +19,11 @@ MOST = 3000
 
 
 def waterfall(
-    folder: Path, steps: Sequence[tuple[str, float]], held_out: tuple[float | None, float | None], units: Units
+    folder: Path,
+    steps: Sequence[tuple[str, float]],
+    held_out: tuple[float | None, float | None],
+    units: Units,
+    name: str = "waterfall",
 ) -> Picture:
     """From the bare model via each adopted effect to the noise.
 
@@ -61,7 +65,7 @@ def waterfall(
         "takes away. Diamonds: error on what was not fitted, bare and final."
     )
     height = 1.25 + 0.36 * len(steps)
-    return picture(folder, "waterfall", (6.4, height), f"RMSE step by step: {told}.", caption, draw)
+    return picture(folder, name, (6.4, height), f"RMSE step by step: {told}.", caption, draw)
 
 
 def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str) -> Picture:

@@ -142,8 +142,8 @@ def test_the_page_tells_shares_and_what_went_wrong(tmp_path):
     for case in cases:
         (tmp_path / FOLDER / f"clean.{case.number}.json").write_text(json.dumps(asdict(case)))
     page = write_closing_page(tmp_path).read_text()
-    assert "something was claimed in 1 of 4 (25 %" in told(tmp_path)[0]
-    assert "1 of 3 (33 %" in told(tmp_path)[0]
+    assert "something was claimed in 1 of 4 (25\u202f%" in told(tmp_path)[0]
+    assert "1 of 3 (33\u202f%" in told(tmp_path)[0]
     assert "exit code 9 &lt;b&gt;" in page
     assert "Cases that went wrong" in page
 

@@ -18,11 +18,12 @@ from hysteresis_plugins.models.bouc_wen import BoucWen
 from hysteresis_plugins.models.free_energy import FreeEnergy
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
 
-DURATION, SAMPLES, FINER = 3.0, 600, 10
-"""s and samples of a record; everything is computed with steps that many times finer."""
+DURATION, SAMPLES, FINER = 3.0, 800, 8
+"""s and samples of a record, at least 60 a cycle, so that samples miss little of a reversal; everything is computed
+with steps that many times finer."""
 
 LONGEST = 0.05
-"""s; the longest lag or delay, at drives of up to 8 Hz."""
+"""s; the longest lag or delay, at drives of up to 4 Hz."""
 
 CALIBRATED = ("slow", "fast", "nested", "sweep")
 
@@ -55,7 +56,7 @@ class HiddenEffects(Rig):
 
     Departs from the contract on purpose: the hysteresis is that of a model, so that whatever else is in the data
     is known. The effects are written without the plugins' code: Euler steps, shifts and bodies between walls on
-    a grid ten times finer than the samples. Each is as strong as to change the output by 4 to 8 times the noise
+    a grid eight times finer than the samples. Each is as strong as to change the output by 4 to 8 times the noise
     (RMS) beyond what another gain, another offset and a linear share of the input take up, or as strong as
     it gets; so it is to be seen, and leaving it out costs more than the noise.
 
@@ -67,10 +68,10 @@ class HiddenEffects(Rig):
 
     experiments: ClassVar[dict[str, str]] = {
         "slow": "sine at 1 Hz that decays",
-        "fast": "sine at 5 Hz that swells",
-        "nested": "minor loops at 2 Hz",
-        "sweep": "sine from 0.5 to 8 Hz",
-        "mixed": "sum of sines at 0.7, 1.9 and 4.3 Hz",
+        "fast": "sine at 3 Hz that swells",
+        "nested": "minor loops of 2 Hz in major ones",
+        "sweep": "sine from 0.5 to 4 Hz",
+        "mixed": "sum of sines at 0.7, 1.6 and 2.9 Hz",
         "stairs": "steps up and down, each held",
     }
 
@@ -260,18 +261,18 @@ _ON_OUTPUT: dict[str, Callable[[NDArray, float, _Given, NDArray], NDArray]] = {
 
 
 def _stairs(time: NDArray) -> NDArray:
-    """Nine levels, each reached within 20 ms and held."""
+    """Nine levels, each reached within 80 ms and held."""
     levels = np.array([0.0, 0.6, 1.0, 0.3, -0.5, -1.0, -0.2, 0.8, -0.7, 0.0])
     starts = np.arange(1, levels.size) * DURATION / levels.size
-    at = np.ravel(np.column_stack([starts, starts + 0.02]))
+    at = np.ravel(np.column_stack([starts, starts + 0.08]))
     return np.interp(time, at, np.ravel(np.column_stack([levels[:-1], levels[1:]])))
 
 
 _DRIVES: dict[str, Callable[[NDArray], NDArray]] = {
     "slow": lambda t: np.sin(2.0 * np.pi * t) * (1.0 - 0.2 * t),
-    "fast": lambda t: np.sin(10.0 * np.pi * t) * (0.4 + 0.2 * t),
-    "nested": lambda t: 0.7 * np.sin(2.0 * np.pi * 0.6 * t) + 0.3 * np.sin(2.0 * np.pi * 2.7 * t),
-    "sweep": lambda t: 0.9 * np.sin(2.0 * np.pi * (0.5 * t + 1.25 * t**2)),
-    "mixed": lambda t: 0.4 * np.sin(1.4 * np.pi * t) + 0.35 * np.sin(3.8 * np.pi * t) + 0.25 * np.sin(8.6 * np.pi * t),
+    "fast": lambda t: np.sin(6.0 * np.pi * t) * (0.4 + 0.2 * t),
+    "nested": lambda t: 0.7 * np.sin(2.0 * np.pi * 0.6 * t) + 0.3 * np.sin(2.0 * np.pi * 2.1 * t),
+    "sweep": lambda t: 0.9 * np.sin(2.0 * np.pi * (0.5 * t + 1.75 / DURATION * t**2)),
+    "mixed": lambda t: 0.4 * np.sin(1.4 * np.pi * t) + 0.35 * np.sin(3.2 * np.pi * t) + 0.25 * np.sin(5.8 * np.pi * t),
     "stairs": _stairs,
 }

@@ -1,0 +1,327 @@
+"""Diagnosis of measurements: the error before and after on records that were not fitted.
+
+    python benchmarks/real_measurements.py [NAME ...] [--out results/real-measurements]
+
+Looks for the data in the folder that HYSTERESIS_DATA names, or in ../shared/data beside the checkout. What it keeps
+is derived: numbers, bars of errors, a page. Cases that are there already are kept; name one to diagnose it again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import os
+import time
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hysteresis_bench import load
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.result import Diagnosis
+from hysteresis_bench.report.diagnosis_figures import waterfall
+from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, render
+from hysteresis_bench.signals import Dataset, Record
+
+ROOT = Path(__file__).parent.parent
+DATA = Path(os.environ.get("HYSTERESIS_DATA", ROOT.parent / "shared" / "data"))
+NUMBERS, STEPS, PAGE = "numbers.csv", "steps.csv", "report.html"
+
+
+@dataclass(frozen=True)
+class Case:
+    """One question to one device's records.
+
+    units : of time (sample: only an index), input and output
+    runs : which of the file's records, all where empty;  held_out : of them, not fitted
+    smooth : samples of a centred running mean over the input, where the input is noisy
+    known : what the source says of these data, in a sentence
+    """
+
+    name: str
+    device: str
+    files: tuple[str, ...]
+    units: tuple[str, str, str]
+    model: str
+    known: str
+    runs: tuple[str, ...] = ()
+    held_out: tuple[str, ...] = ()
+    skip: float | None = None
+    smooth: int = 1
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+CAPACITOR, PZT, HFO2, FEFET = (
+    f"{folder}/frequency_loops_{volts}V"
+    for folder, volts in (
+        ("linear-capacitor-reference", 3),
+        ("ferroelectric-pzt-film-a", 8),
+        ("ferroelectric-hfo2-film", 4),
+        ("ferroelectric-fefet-stack", 5),
+    )
+)
+
+
+def _runs(file: str, numbers: Sequence[int]) -> tuple[str, ...]:
+    return tuple(f"{Path(file).stem}:{run}" for run in numbers)
+
+
+CASES = (
+    Case(
+        "piezo",
+        "piezo stack PI PICMA P-885.91, voltage to displacement",
+        ("piezo-picma-ntu/full_amplitude_1Hz.csv", "piezo-picma-ntu/modulated_1Hz_ramp_down.csv"),
+        ("s", "V", "um"),
+        "bouc-wen",
+        "1 Hz only, so that rate dependence cannot show; the first 0.5 s are a switch-on transient; the sensor's "
+        "noise is 0.065 µm; offsets differ between records",
+        held_out=("modulated_1Hz_ramp_down",),
+        skip=0.5,
+        options={"effects": ("record-offset",)},
+    ),
+    Case(
+        "capacitor, 400 Hz and above",
+        "2.2 nF capacitor on a ferroelectric tester, voltage to charge",
+        (f"{CAPACITOR}.csv",),
+        ("s", "V", "C/m^2"),
+        "bouc-wen",
+        "no hysteresis; the tester delays the charge by about 13 µs from 400 Hz up",
+        runs=_runs(CAPACITOR, (2, 3, 4, 5, 6)),
+        held_out=_runs(CAPACITOR, (4,)),
+    ),
+    Case(
+        "capacitor, all frequencies",
+        "2.2 nF capacitor on a ferroelectric tester, voltage to charge",
+        (f"{CAPACITOR}.csv",),
+        ("s", "V", "C/m^2"),
+        "bouc-wen",
+        "no hysteresis; the tester's delay jumps from 1 to 13 µs between 200 and 400 Hz, where it changes its range",
+        held_out=_runs(CAPACITOR, (1, 4)),
+    ),
+    Case(
+        "electrical steel",
+        "grain-oriented electrical steel M130-27s, field to flux density",
+        ("magcore-go-steel-m130/loops.csv",),
+        ("sample", "A/m", "T"),
+        "jiles-atherton-clamped",
+        "two closed loops without a time base",
+        held_out=("loops:0",),
+        options={"settle": True},
+    ),
+    Case(
+        "Mn-Zn ferrite",
+        "Mn-Zn ferrite core, field to flux density",
+        ("magcore-mnzn-ferrite/loops.csv",),
+        ("sample", "A/m", "T"),
+        "jiles-atherton-clamped",
+        "three closed loops without a time base, made symmetric by their author",
+        held_out=("loops:1",),
+        options={"settle": True},
+    ),
+    Case(
+        "PZT film",
+        "lead zirconate titanate film, voltage to polarization",
+        (f"{PZT}.csv",),
+        ("s", "V", "C/m^2"),
+        "free-energy",
+        "triangles of 100 to 1000 Hz after a pulse that is not recorded; the tester delays by 1 to 13 µs",
+        runs=_runs(PZT, (2, 3, 4, 5, 6)),
+        held_out=_runs(PZT, (4,)),
+        options={"settle": True},
+    ),
+    Case(
+        "hafnium oxide film",
+        "hafnium oxide film, voltage to polarization",
+        (f"{HFO2}.csv",),
+        ("s", "V", "C/m^2"),
+        "free-energy",
+        "triangles of 100 to 1000 Hz; a leaky film, whose loops need not close",
+        runs=_runs(HFO2, (2, 3, 4, 5, 6)),
+        held_out=_runs(HFO2, (4,)),
+        options={"settle": True},
+    ),
+    Case(
+        "FeFET gate stack",
+        "metal-ferroelectric-silicon gate stack, voltage to polarization",
+        (f"{FEFET}.csv",),
+        ("s", "V", "C/m^2"),
+        "free-energy",
+        "triangles of 100 to 1000 Hz; asymmetric loops, open at zero volts",
+        runs=_runs(FEFET, (2, 3, 4, 5, 6)),
+        held_out=_runs(FEFET, (4,)),
+        options={"settle": True},
+    ),
+    Case(
+        "shape memory alloy",
+        "shape memory alloy under constant stress, temperature to strain",
+        ("sma-isobaric-tamu/thermal_cycles.csv",),
+        ("sample", "degC", "1"),
+        "jiles-atherton-clamped",
+        "six of about 70 cycles without a time base; strain falls on heating, so the input is flipped about 130 °C; "
+        "the thermocouple is noisy, so the input is a running mean of 9 samples; the loop moves from cycle to cycle",
+        runs=tuple(f"thermal_cycles:{run}" for run in (8, 16, 24, 32, 40, 48)),
+        held_out=("thermal_cycles:24", "thermal_cycles:48"),
+        smooth=9,
+        options={"settle": True, "flip": True, "input_offset": 130.0, "effects": ("record-offset",)},
+    ),
+)
+
+
+def prepared(case: Case) -> Dataset:
+    """The case's records, as `diagnose` gets them."""
+    dataset = load(*(DATA / file for file in case.files), skip=case.skip)
+    records = [record for record in dataset.records if not case.runs or record.name in case.runs]
+    units = dict(zip(("time", "input", "output"), case.units, strict=True))
+    return Dataset(tuple(replace(_smoothed(r, case.smooth), units=units) for r in records), case.held_out)
+
+
+def _smoothed(record: Record, width: int) -> Record:
+    if width == 1:
+        return record
+    padded = np.pad(record.input, width // 2, mode="edge")
+    return replace(record, input=np.convolve(padded, np.full(width, 1.0 / width), mode="valid"))
+
+
+def row(case: Case, found: Diagnosis, seconds: float) -> dict[str, Any]:
+    """What is kept of a diagnosis: numbers and names."""
+    own = {*found.effects, "record-offset"}
+    values = {
+        name: [estimate.value, estimate.standard_error, estimate.unit]
+        for name, estimate in found.model.parameters.items()
+        if name.rpartition(".")[0] in own or name in own
+    }
+    before, after = found.before, found.after
+    return {
+        "case": case.name,
+        "model": case.model,
+        "verdict": found.verdict,
+        "effects": " ".join(found.effects),
+        "ties": "; ".join(f"{tie.effect} or {tie.rival}" for tie in found.ties),
+        "hysteresis_needed": found.memory.needed,
+        "hysteresis": found.memory.words,
+        "noise": found.noise.floor,
+        "fitted_before": before.fitted.rmse,
+        "fitted_after": after.fitted.rmse,
+        "held_out_before": before.held_out.rmse if before.held_out else None,
+        "held_out_after": after.held_out.rmse if after.held_out else None,
+        "unit": found.units.get("output", "1"),
+        "parameters": json.dumps(values),
+        "advice": found.advice.words if found.advice else "",
+        "headline": found.headline,
+        "seconds": round(seconds, 1),
+    }
+
+
+def read(path: Path) -> list[dict[str, str]]:
+    if not path.is_file():
+        return []
+    with path.open(newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def write(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mapping[str, str]]) -> Path:
+    """Write report.html from the numbers kept."""
+    parts = []
+    for one in rows:
+        case = next((case for case in CASES if case.name == one["case"]), None)
+        if case is None:
+            continue
+        mine = [(step["step"], float(step["rmse"])) for step in steps if step["case"] == case.name]
+        held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
+        drawn = waterfall(folder, mine, held_out, {"output": one["unit"]}, "".join(c for c in case.name if c.isalnum()))
+        parts.append((case, one, drawn, _parameters(one)))
+    text = render(
+        "measurements.html.j2",
+        title="Diagnosis of real measurements",
+        kicker=f"{len(parts)} devices and questions",
+        summary=_summary(rows),
+        parts=parts,
+        files=[(NUMBERS, "a row a case"), (STEPS, "the error step by step")],
+    )
+    (folder / PAGE).write_text(text, encoding="utf-8")
+    return folder / PAGE
+
+
+def _summary(rows: Sequence[Mapping[str, str]]) -> Table:
+    lines: list[list[str | Cell]] = []
+    for one in rows:
+        before, after = _float(one["held_out_before"]), _float(one["held_out_after"])
+        gain = before / after if before and after else None
+        lines.append(
+            [
+                one["case"],
+                one["model"],
+                Cell(listed(one["effects"].split()) if one["effects"] else "none", "prose"),
+                "yes" if one["hysteresis_needed"] == "True" else "no",
+                number(before, 3),
+                Cell(number(after, 3), "", strong=True),
+                number(gain, 3),
+                number(_float(one["noise"]), 2),
+                one["unit"] if one["unit"] != "1" else "",
+            ]
+        )
+    header = [
+        "Case",
+        "Model",
+        "Effects found",
+        "Hysteresis needed",
+        "Before",
+        "After",
+        "Times smaller",
+        "Noise",
+        "Unit",
+    ]
+    return Table("RMSE on records that were not fitted", header, lines, note="The noise is estimated from the data.")
+
+
+def _parameters(one: Mapping[str, str]) -> Table:
+    rows: list[list[str | Cell]] = [
+        [name, number(value, 4), NONE if error is None else number(error, 2), "" if unit == "1" else unit]
+        for name, (value, error, unit) in json.loads(one["parameters"]).items()
+    ]
+    return Table("Parameters of the effects", ["Parameter", "Value", "Standard error", "Unit"], rows)
+
+
+def _float(text: Any) -> float | None:
+    return float(text) if text not in ("", None) else None
+
+
+def main(say: Callable[[str], None] = print) -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("names", nargs="*", help="cases to diagnose again; default: those that are missing")
+    parser.add_argument("--out", type=Path, default=ROOT / "results" / "real-measurements")
+    arguments = parser.parse_args()
+    folder: Path = arguments.out
+    folder.mkdir(parents=True, exist_ok=True)
+    order = [case.name for case in CASES]
+    rows = {one["case"]: one for one in read(folder / NUMBERS)}
+    steps = read(folder / STEPS)
+    for case in CASES:
+        if case.name not in arguments.names if arguments.names else case.name in rows:
+            continue
+        begun = time.monotonic()
+        found = diagnose(prepared(case), case.model, **case.options)
+        rows[case.name] = {
+            key: str(v) if v is not None else "" for key, v in row(case, found, time.monotonic() - begun).items()
+        }
+        steps = [step for step in steps if step["case"] != case.name]
+        steps += [{"case": case.name, "step": label, "rmse": repr(value)} for label, value in found.waterfall]
+        write(folder / NUMBERS, sorted(rows.values(), key=lambda one: order.index(one["case"])))
+        write(folder / STEPS, sorted(steps, key=lambda step: order.index(step["case"])))
+        say(f"{case.name}: {found.headline}")
+    say(str(page(folder, read(folder / NUMBERS), read(folder / STEPS))))
+
+
+if __name__ == "__main__":
+    main()
