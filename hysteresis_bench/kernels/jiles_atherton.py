@@ -61,44 +61,46 @@ def first_anhysteretic(H: float, alpha: float, a: float, M_s: float, c: float) -
     return Ma
 
 
+# forceinline: a call in the innermost loop would keep it from being vectorised.
+@njit(cache=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
+def advanced(H, h, delta, ahead, alpha, inverse_a, pull, k, M_s, c, Mi, D_, M_, rise_D, rise_M, clamped):  # type: ignore[no-untyped-def]
+    """One particle, one sample on to H: the new Mi, D, M.
+
+    h, delta : |dH| > 0 and its sign (6)
+    ahead : dH over the last dH where the direction is kept, else 0: how far to extrapolate
+    clamped : a constant where it is called, so that neither treatment of reversal costs the other anything
+    """
+    M_ahead = M_ + ahead * rise_M
+    x = (H + alpha * M_ahead) * inverse_a
+    ratio = langevin_ratio(x)
+
+    kappa = k - alpha * (delta * D_ + 0.5 * delta * ahead * rise_D)  # the denominator of (5), times delta
+    if clamped:
+        kappa = max(kappa, 0.0)  # ours: past the pole of (5) Mi jumps to Ma
+    u = kappa + h
+    w = h / (kappa * kappa + u * u)
+    L = x * ratio
+    Ma = M_s * L
+    Ma_slope = pull * (1.0 - L * L - 2.0 * ratio)  # dMa/dM
+    Mi_slope = w * u  # dMi/dMa
+    if clamped:
+        D_from = delta * max(delta * D_, 0.0)  # while behind, Mi waits until Ma has come back to it
+        change = delta * max(delta * (w * (kappa * D_from + u * (Ma - Mi))), 0.0)
+        Mi_slope = Mi_slope if change != 0.0 else 0.0
+    else:
+        change = w * (kappa * D_ + u * (Ma - Mi))
+    Mi += change
+    M_found = Mi + c * (Ma - Mi)  # (11)
+    steepness = (c + (1.0 - c) * Mi_slope) * Ma_slope  # dM_found/dM_ahead
+    correction = Ma_slope * (M_found - M_ahead) / (1.0 - min(steepness, STEEPEST))
+    Ma_found = min(max(Ma + correction, -M_s), M_s)
+    Mi += Mi_slope * (Ma_found - Ma)
+    D_ = Ma_found - Mi
+    return Mi, D_, Mi + c * D_
+
+
 def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
     """The kernel for one treatment of reversal and one kind of input; neither costs the others anything."""
-
-    # forceinline: a call in the innermost loop would keep it from being vectorised.
-    @njit(cache=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
-    def advanced(H, h, delta, ahead, alpha, inverse_a, pull, k, M_s, c, Mi, D_, M_, rise_D, rise_M):  # type: ignore[no-untyped-def]
-        """One particle, one sample on to H: the new Mi, D, M.
-
-        h, delta : |dH| > 0 and its sign (6)
-        ahead : dH over the last dH where the direction is kept, else 0: how far to extrapolate
-        """
-        M_ahead = M_ + ahead * rise_M
-        x = (H + alpha * M_ahead) * inverse_a
-        ratio = langevin_ratio(x)
-
-        kappa = k - alpha * (delta * D_ + 0.5 * delta * ahead * rise_D)  # the denominator of (5), times delta
-        if clamped:
-            kappa = max(kappa, 0.0)  # ours: past the pole of (5) Mi jumps to Ma
-        u = kappa + h
-        w = h / (kappa * kappa + u * u)
-        L = x * ratio
-        Ma = M_s * L
-        Ma_slope = pull * (1.0 - L * L - 2.0 * ratio)  # dMa/dM
-        Mi_slope = w * u  # dMi/dMa
-        if clamped:
-            D_from = delta * max(delta * D_, 0.0)  # while behind, Mi waits until Ma has come back to it
-            change = delta * max(delta * (w * (kappa * D_from + u * (Ma - Mi))), 0.0)
-            Mi_slope = Mi_slope if change != 0.0 else 0.0
-        else:
-            change = w * (kappa * D_ + u * (Ma - Mi))
-        Mi += change
-        M_found = Mi + c * (Ma - Mi)  # (11)
-        steepness = (c + (1.0 - c) * Mi_slope) * Ma_slope  # dM_found/dM_ahead
-        correction = Ma_slope * (M_found - M_ahead) / (1.0 - min(steepness, STEEPEST))
-        Ma_found = min(max(Ma + correction, -M_s), M_s)
-        Mi += Mi_slope * (Ma_found - Ma)
-        D_ = Ma_found - Mi
-        return Mi, D_, Mi + c * D_
 
     @njit(cache=True, error_model="numpy", fastmath={"contract"})
     def kernel(H: NDArray, alpha: NDArray, a: NDArray, k: NDArray, M_s: NDArray, c: NDArray) -> NDArray:
@@ -144,7 +146,7 @@ def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
                         Mi, D_, M_ = advanced(
                             field, abs(dH), math.copysign(1.0, dH), ahead,
                             s[o + ALPHA], s[o + INVERSE_A], s[o + PULL], s[o + K], s[o + M_S], s[o + C],
-                            s[o + MI], s[o + D], s[o + M], s[o + RISE_D], s[o + RISE_M],
+                            s[o + MI], s[o + D], s[o + M], s[o + RISE_D], s[o + RISE_M], clamped,
                         )  # fmt: skip
                         rise_D, rise_M = D_ - s[o + D], M_ - s[o + M]
                         if not shared:
