@@ -76,7 +76,7 @@ def _profile(folder: Path, name: str, problem: str, told: Mapping[str, Any], all
         if grid.min() > 0 and grid.max() > 20 * grid.min():
             axes.set_xscale("log")
         axes.set_yscale("symlog", linthresh=10.0)
-        axes.set_ylim(bottom=0)
+        axes.set_ylim(0, max(10.0, 1.2 * float(ratio.max())))
         axes.set(xlabel=told["name"] + ("" if unit == "1" else f" ({unit})"), ylabel="Likelihood ratio")
 
     caption = f"{problem}: how much worse the best fit becomes with {told['name']} held; below the dotted line "

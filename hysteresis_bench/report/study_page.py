@@ -208,8 +208,7 @@ def signals(
         rows = results.responses[results.responses["problem"] == problem.name]
         units = results.provenance.get("units", {}).get(problem.name, {})
         labels = shown(problem, published, rows["optimizer"])
-        together = measured_loops(folder, f"measured-{i}", rows, units, problem.name)
-        found["drives"] += [together] if together else []
+        before = len(drawn)
         records = dict(list(rows.groupby(["record", "role"], sort=False)))
         for j, ((record, role), part) in enumerate(records.items(), 1):
             one = part[part["optimizer"] == part["optimizer"].iloc[0]][["time", "input", "output"]]
@@ -228,6 +227,8 @@ def signals(
                 found["loops"].append(loop(folder, f"loop-{i}-{j}-{k}", mine, units, label, caption, colour))
             caption = f"{problem.name}, {record} ({role}): simulated minus measured."
             found["errors"].append(errors(folder, f"errors-{i}-{j}", parts, units, caption))
+        if len(drawn) > before and (together := measured_loops(folder, f"measured-{i}", rows, units, problem.name)):
+            found["drives"].append(together)
     return found
 
 

@@ -35,7 +35,7 @@ def _ratio(problem: Problem) -> str:
     if problem.reference not in problem.labels or problem.reference == problem.winner:
         return ""
     theirs = stats.quantile(problem.values(problem.reference, "fitness"), 0.5)
-    ours = stats.quantile(problem.values(problem.winner, "fitness"), 0.5)
+    ours = max(stats.quantile(problem.values(problem.winner, "fitness"), 0.5), problem.best_known)
     if not np.isfinite(theirs) or ours <= 0:
         return ""
     ratio = theirs / ours
