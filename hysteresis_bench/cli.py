@@ -14,6 +14,7 @@ from rich.table import Table
 
 from hysteresis_bench import registry
 from hysteresis_bench.control.command import control
+from hysteresis_bench.diagnosis.command import diagnose
 from hysteresis_bench.errors import UserError, nearest
 
 DONE, FAILED_TRIALS, USER_AT_FAULT = 0, 1, 2
@@ -314,3 +315,4 @@ def _say_path(console: Console, what: str, path: Path) -> None:
 
 
 main.add_command(control)
+main.add_command(diagnose)

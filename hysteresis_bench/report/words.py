@@ -51,8 +51,8 @@ def _apart(problem: Problem) -> str:
         return "Nobody else was run."
     if len(problem.trials) < stats.ENOUGH:
         return (
-            f"With {len(problem.trials)} trial{'s' * (len(problem.trials) != 1)} this describes what happened and proves nothing: {stats.TOO_FEW} the "
-            f"optimizers apart ({stats.ENOUGH} are needed)."
+            f"With {len(problem.trials)} trial{'s' * (len(problem.trials) != 1)} this describes what happened and "
+            f"proves nothing: {stats.TOO_FEW} the optimizers apart ({stats.ENOUGH} are needed)."
         )
     same = problem.tied_with_winner
     if not same:

@@ -26,7 +26,7 @@ class Resonance(Effect):
     """
 
     parameters = (
-        Parameter("period", 0.0, 0.1, unit="{time}", null=0.0, meaning="of the undamped oscillation: 1 / natural frequency"),
+        Parameter("period", 0.0, 0.1, unit="{time}", null=0.0, meaning="1 / undamped natural frequency"),
         Parameter("damping", 0.02, 2.0, scaling="log", meaning="damping ratio, 1 is critical"),
     )
 
