@@ -29,7 +29,7 @@ SHARE = 0.1
 """Of the excess of the mean square over the noise's, which an effect must explain."""
 
 CLOSE = 0.5
-"""Two systems whose outputs differ by less than this many times the noise (RMS) are alike."""
+"""Two systems whose outputs differ by less than this many times what they leave, or the noise (RMS), are alike."""
 
 ALIKE = 1.02
 """... and whose cross-validated errors are within this ratio."""
@@ -115,14 +115,19 @@ class Selection:
         gain = advantage(one.left_out, other.left_out, self.bench.blocks)
         ratio = other.cv_rmse / one.cv_rmse if one.cv_rmse > 0 else 1.0
         apart = float(np.sqrt(np.mean((one.residuals - other.residuals) ** 2)))
-        similar = apart < CLOSE * max(self.floor, 0.0) and ratio < ALIKE and 1 / ratio < ALIKE
+        similar = apart < CLOSE * max(self.floor, one.rmse) and ratio < ALIKE and 1 / ratio < ALIKE
         return similar and abs(gain) < CLEAR
 
     def simplest(self, trials: Sequence[Trial]) -> Trial:
-        """Of the best and those tied with it, the one with fewest parameters, then alphabetically first."""
+        """Of the best and those tied with it, the one with fewest parameters, then alphabetically first; what a
+        model offers inside its state equation only where nothing around it does as well."""
         best = min(trials, key=lambda trial: trial.cv_rmse)
         alike = [trial for trial in trials if trial is best or self.tied(best, trial)]
-        return min(alike, key=lambda trial: (len(trial.at_bound) > 0, len(trial.values), sorted(trial.names)))
+        return min(alike, key=self._plainness)
+
+    def _plainness(self, trial: Trial) -> tuple[bool, int, int, list[str]]:
+        inside = len(trial.names & set(self.bench.stack.model.offers))
+        return len(trial.at_bound) > 0, len(trial.values), inside, sorted(trial.names)
 
     def _round(self, current: Trial) -> Round:
         trials = self._extensions(current)
