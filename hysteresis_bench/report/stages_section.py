@@ -78,7 +78,7 @@ def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> I
         f"fitted to {', '.join(spec.fitted)} by least squares on the output, started from a linear regression on "
         "filtered signals."
     )
-    faults = rows[rows["fault"].fillna("") != ""][["optimizer", "way", "fault"]].drop_duplicates()
+    faults = rows[rows["fault"].notna()][["optimizer", "way", "fault"]].drop_duplicates()
     for _, row in faults.iterrows():
         yield f"{row['optimizer']}, {row['way']}: {row['fault']}. What would follow from it has no number here."
     if not spec.check or len(spec.optimizers) < 2:
