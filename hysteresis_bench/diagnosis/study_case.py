@@ -194,6 +194,8 @@ def hidden_in(bench: BenchSpec, dataset: Dataset) -> tuple[str, ...]:
 def _noise(dataset: Dataset, estimate: float) -> float:
     """RMS of the noise: as the rig tells, or as it is estimated where noise also enters through the input."""
     told = dataset.hidden.get("noise")
+    if isinstance(told, Mapping):
+        told = None if told.get("input") else told.get("output")
     return float(told) if isinstance(told, (int, float)) and told > 0 else estimate
 
 
