@@ -48,6 +48,7 @@ def diagnose(
     from hysteresis_bench import load
     from hysteresis_bench.diagnosis.diagnose import diagnose as find
     from hysteresis_bench.diagnosis.diagnosis_file import write_diagnosis
+    from hysteresis_bench.report.diagnosis_page import write_diagnosis_page
 
     dataset = load(*data, held_out=held_out, skip=skip)
     found = find(
@@ -57,6 +58,8 @@ def diagnose(
     print_diagnosis(found, console)
     path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
+    page = write_diagnosis_page(path.parent, found, data)
+    console.print(f"page: {page}", highlight=False, soft_wrap=True)
 
 
 def print_diagnosis(found: Diagnosis, console: Console) -> None:
