@@ -14,7 +14,7 @@ from hysteresis_bench.signals import Dataset, Record
 SETTLED = 2
 """Passes of a closed loop before it is scored."""
 
-MOST = 7000
+MOST = 4000
 """Samples that the search for effects works on; the final fits use all."""
 
 RESOLVED = 0.04
