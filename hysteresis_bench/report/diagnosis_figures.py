@@ -46,29 +46,21 @@ def waterfall(
         for row, error in ((0, held_out[0]), (last, held_out[1])):
             if error is not None:
                 axes.plot(error, row, "D", color=HELD_OUT, markersize=6, zorder=4, clip_on=False)
-        widest = max(values + [error for error in held_out if error is not None])
-        errors = {0: held_out[0], last: held_out[1]} if last else {0: held_out[1]}
-        for row, value in enumerate(values):
-            end, error = (max(value, values[row - 1]) if 0 < row <= last else value), errors.get(row)
-            if error is not None and error > end:
-                axes.annotate(
-                    number(error, 3),
-                    (error, row),
-                    xytext=(8, 0),
-                    textcoords="offset points",
-                    va="center",
-                    color=HELD_OUT,
-                )
-                crowded = error - end < 0.14 * widest
-                end = error + 0.13 * widest if crowded else end
-            axes.annotate(number(value, 3), (end, row), xytext=(8, 0), textcoords="offset points", va="center")
+        columns: list[tuple[float, str, str, dict[int, float | None]]] = [
+            (1.02, "fitted", INK, dict(enumerate(values)))
+        ]
         if any(value is not None for value in held_out):
-            axes.plot([], [], "D", color=HELD_OUT, markersize=6, label="not fitted")
-            axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), borderaxespad=0, handlelength=1.0)
+            columns.append((1.19, "not fitted", HELD_OUT, {0: held_out[0], last: held_out[1]}))
+        beside = axes.get_yaxis_transform()  # x as a share of the axes, y in rows
+        for place, heading, colour, told_here in columns:
+            axes.text(place, -0.7, heading, color=colour, transform=beside, va="center", fontsize=8)
+            for row, told_value in told_here.items():
+                axes.text(place, row, number(told_value, 3), color=colour, transform=beside, va="center")
         axes.set_yticks(range(len(labels)), labels)
         axes.invert_yaxis()
         axes.grid(axis="y", visible=False)
-        axes.set_xlim(0, 1.3 * widest)
+        axes.set_xlim(0, 1.03 * max(values + [value for value in held_out if value is not None]))
+        axes.ticklabel_format(axis="x", scilimits=(-3, 5), useMathText=True)
         axes.set_xlabel(named("RMSE", units, "output"))
 
     told = ", ".join(f"{label} {value:.3g}" for label, value in zip(labels, values, strict=True))
