@@ -13,8 +13,8 @@ from rich.console import Console
 from rich.table import Table
 
 from hysteresis_bench import registry
-from hysteresis_bench.control.command import control
-from hysteresis_bench.diagnosis.command import diagnose
+from hysteresis_bench.commands.control import control
+from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.errors import UserError, nearest
 
 DONE, FAILED_TRIALS, USER_AT_FAULT = 0, 1, 2
@@ -67,13 +67,13 @@ def main() -> None:
 @click.option("--out", type=folder, help="Results folder; default: results/NAME.")
 def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
+    from hysteresis_bench import run_study
     from hysteresis_bench.diagnosis.study import is_diagnosis_study
     from hysteresis_bench.progress import progress_bar
     from hysteresis_bench.report import write_report
     from hysteresis_bench.report.console import print_summary
     from hysteresis_bench.report.published import check_published_beside
-    from hysteresis_bench.study.results import FINISHED, read_results
-    from hysteresis_bench.study.run import run_study
+    from hysteresis_bench.study.results import FINISHED
 
     console = _console()
     if is_diagnosis_study(study):
@@ -81,11 +81,10 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
     check_published_beside(study)
     try:
         with progress_bar(console) as tell:
-            results_folder = run_study(study, trials=trials, jobs=jobs, out=out, tell=tell)
+            results = run_study(study, trials=trials, jobs=jobs, out=out, tell=tell)
     except KeyboardInterrupt:
         raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
-    page = write_report(results_folder)
-    results = read_results(results_folder)
+    page = write_report(results.folder)
     print_summary(results, console)
     failed = results.trials[~results.trials["status"].isin(FINISHED)]
     for row in failed.itertuples():

@@ -56,6 +56,11 @@ class Comparison:
     warnings: tuple[str, ...]
 
 
+def scores_on_rig(fitted: FittedModel, rig: Any, name: str, seed: int) -> pd.DataFrame:
+    """The scores of `compare`, as a study's stages ask for them."""
+    return compare(fitted, rig, name, seed=seed).scores
+
+
 def compare(
     fitted: FittedModel, rig: Any, name: str, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
 ) -> Comparison:

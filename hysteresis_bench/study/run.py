@@ -24,7 +24,7 @@ from hysteresis_bench.study.afterwards import identifiability, responses
 from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STAGES, STUDY, TRIALS
-from hysteresis_bench.study.stages import run_stages
+from hysteresis_bench.study.stages import ClosedLoop, run_stages
 from hysteresis_bench.study.store import Outcome, Store
 from hysteresis_bench.study.study_file import Study, check_study, read_study
 from hysteresis_bench.study.trial import Ticket, run_trial, seed_key
@@ -48,11 +48,12 @@ def run_study(
     jobs: int | None = None,
     out: Path | str | None = None,
     tell: Callable[[Progress], None] = lambda progress: None,
+    closed_loop: ClosedLoop | None = None,
 ) -> Path:
     """Run every trial of a study that is not in its results folder yet; returns that folder.
 
     trials : overrides the file's number; jobs : worker processes, all cores by default;
-    out : the results folder, see default_folder
+    out : the results folder, see default_folder;  closed_loop : for studies with stages that ask for control
     Raises UserError for a fault in the file, the data, or the folder.
     """
     path = Path(path)
@@ -68,7 +69,7 @@ def run_study(
             _run_missing(store, study, path, trials or study.trials, jobs or os.cpu_count() or 1, tell)
             table = store.table()
     table.to_csv(folder / TRIALS, index=False)
-    staged, staged_responses = run_stages(study, table, built, path.parent)
+    staged, staged_responses = run_stages(study, table, built, path.parent, closed_loop)
     if study.stage:
         staged.to_csv(folder / STAGES, index=False)
     parts = [responses(table, built), staged_responses]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hysteresis_bench import registry
 from hysteresis_bench.accuracy import accuracy
 from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Rig
 from hysteresis_bench.model_file import Estimate, FittedModel
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
@@ -21,6 +22,9 @@ from hysteresis_bench.study.linear_section import fitted
 from hysteresis_bench.study.problems import Built, build_problem, build_system
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import StageSpec, Study
+
+ClosedLoop = Callable[[FittedModel, Rig, str, int], pd.DataFrame]
+"""(fitted model, rig, the rig's name, seed) -> a row a controller and reference; it comes from the floor above."""
 
 COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")
 STAGED, HELD, FITTED, LARGEST, RMSE = "staged", "held", "fitted", "largest error", "rmse"
@@ -44,11 +48,12 @@ class Whole:
 
 
 def run_stages(
-    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], folder: Path
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], folder: Path, closed_loop: ClosedLoop | None = None
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses.
 
-    folder : where relative data files are looked for. An absent number is None: the errors of a section that
+    folder : where relative data files are looked for; closed_loop : runs the controllers of a stage that asks for
+    control, which is left out without. An absent number is None: the errors of a section that
     is unstable, a standard error that the data cannot tell. Errors are in units of the output.
     """
     rows: list[dict[str, Any]] = []
@@ -64,8 +69,8 @@ def run_stages(
                 rows += [about | row for row in _errors(record, simulated)]
                 if simulated is not None and whole.way == STAGED and role == "check":
                     parts.append(_response(stage.name, whole.optimizer, record, role, simulated))
-            if whole.optimizer in stage.control and whole.way == STAGED and not whole.fault:
-                rows += [about | row for row in _tracked(stage, study, whole, data)]
+            if closed_loop and whole.optimizer in stage.control and whole.way == STAGED and not whole.fault:
+                rows += [about | row for row in _tracked(stage, study, whole, data, closed_loop)]
     return pd.DataFrame(rows, columns=list(COLUMNS)), pd.concat(parts) if parts else pd.DataFrame()
 
 
@@ -123,10 +128,10 @@ def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: Sy
     return Whole(label, STAGED, system, section.values, tuple(rows), section.fault)
 
 
-def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Iterator[dict[str, Any]]:
+def _tracked(
+    stage: StageSpec, study: Study, whole: Whole, data: Built, closed_loop: ClosedLoop
+) -> Iterator[dict[str, Any]]:
     """Every controller along every reference, on the rig; a row with the fault where the model allows none."""
-    from hysteresis_bench.control.comparison import compare  # needs scipy, and control is not part of most studies
-
     after = next(spec for spec in study.problem if spec.name == stage.after)
     assert after.rig is not None
     found = {row["name"]: row for row in whole.rows}
@@ -135,7 +140,7 @@ def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Itera
     fitted_model = FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
     rig = registry.build("rigs", after.rig, after.rig_settings)
     try:
-        scores = compare(fitted_model, rig, after.rig, seed=study.seed).scores
+        scores = closed_loop(fitted_model, rig, after.rig, study.seed)
     except ValueError as fault:
         yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
         return
