@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
+import bouc_wen
+import free_energy
 import numpy as np
 from numba import njit
 from numpy.typing import NDArray
@@ -172,6 +174,10 @@ def main() -> None:
         if not asked.no_trials:
             title = f"{entry.name}: a trial of {PARTICLES} x {ITERATIONS} on {SAMPLES} samples"
             console.print(shown(title, "CPU s", trial_rows(entry, 3)))
+    costs = [(name, cost) for name, cost, _ in bouc_wen.rows()]
+    console.print(shown(f"bouc-wen and second-order, {PARTICLES} x {SAMPLES}", "ns a particle-sample", costs))
+    of_free_energy = [(f"{row['kernel']}, error {row['error']:.0e}", row["ns"]) for row in free_energy.rows()]
+    console.print(shown("free energy, and brute-force relays", "ns a particle-sample", of_free_energy))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from hysteresis_bench.report.page import Cell, Table, number, percent
+from hysteresis_bench.report.page import Cell, Table, number, percent, whole
 
 RECOVERED = 1e-4
 """Largest relative error of anything that acts on the output, at which the truth counts as found."""
@@ -35,6 +35,7 @@ def recovered(problem: str, told: Mapping[str, Any]) -> Table:
             number(acting.min(), 2),
             number(float(np.median(acting)), 2),
             number(float(trials["parameters"].median()), 2),
+            whole(trials["evaluations"].astype(float).fillna(np.inf).median()),
         ]
         rows.append((float(np.median(acting)), row))
     note = f"What acts on the output: {', '.join(told['combinations'])}. Found: every one of them within "
@@ -42,6 +43,7 @@ def recovered(problem: str, told: Mapping[str, Any]) -> Table:
     note += f"fitted: neither, and yet a relative RMS below {percent(FITS)}."
     header = ["Optimizer", "The truth is", "Trials that found it", "Relative RMS, median"]
     header += ["Error of what acts, best", "Error of what acts, median", "Error of the worst single parameter, median"]
+    header += ["Evaluations to six digits, median"]
     ordered = [row for _, row in sorted(rows, key=lambda pair: pair[0])]
     return Table(f"{problem}: who finds the known truth (relative errors)", header, ordered, note)
 

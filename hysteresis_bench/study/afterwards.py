@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hysteresis_bench.identifiability import analyse, profile
 from hysteresis_bench.identify import polish
+from hysteresis_bench.objective import Trace
 from hysteresis_bench.study.problems import Built
 from hysteresis_bench.study.recovery import recovery
 from hysteresis_bench.study.results import FINISHED
@@ -39,7 +40,9 @@ def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
     return pd.concat(parts) if parts else pd.DataFrame()
 
 
-def identifiability(study: Study, trials: pd.DataFrame, built: Mapping[str, Built]) -> dict[str, Any]:
+def identifiability(
+    study: Study, trials: pd.DataFrame, traces: Mapping[tuple[str, str, int], Trace], built: Mapping[str, Built]
+) -> dict[str, Any]:
     """Per problem, at the polished best of all trials: rank, standard errors, sentences, profiles.
 
     An absent number (a parameter that the data cannot tell) is None. Where the truth is known, "recovery" says
@@ -68,7 +71,7 @@ def identifiability(study: Study, trials: pd.DataFrame, built: Mapping[str, Buil
             "profiles": [_profile(of, name, values) for name in profiled[problem]],
         }
     for problem in told:
-        if found := recovery(trials[trials["problem"] == problem], built[problem]):
+        if found := recovery(trials[trials["problem"] == problem], built[problem], traces):
             told[problem]["recovery"] = found
     return told
 

@@ -67,14 +67,14 @@ def run_study(
         with Store(folder) as store:
             store.begin(study.title)
             _run_missing(store, study, path, trials or study.trials, jobs or os.cpu_count() or 1, tell)
-            table = store.table()
+            table, traces = store.table(), store.traces()
     table.to_csv(folder / TRIALS, index=False)
     staged, staged_responses = run_stages(study, table, built, path.parent, closed_loop)
     if study.stage:
         staged.to_csv(folder / STAGES, index=False)
     parts = [responses(table, built), staged_responses]
     pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
-    told = json.dumps(identifiability(study, table, built), indent=1, allow_nan=False)
+    told = json.dumps(identifiability(study, table, traces, built), indent=1, allow_nan=False)
     (folder / IDENTIFIABILITY).write_text(told + "\n", encoding="utf-8")
     return folder
 

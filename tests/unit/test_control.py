@@ -10,9 +10,9 @@ from click.testing import CliRunner
 
 from hysteresis_bench import registry
 from hysteresis_bench.cli import Group
+from hysteresis_bench.commands.control import control
 from hysteresis_bench.compose import System
 from hysteresis_bench.control.closed_loop import Target, track
-from hysteresis_bench.commands.control import control
 from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer

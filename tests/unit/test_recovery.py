@@ -6,10 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from hysteresis_bench.objective import Trace
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.recovery import recovery
 from hysteresis_bench.study.study_file import ProblemSpec
+from hysteresis_plugins.models.free_energy_gma import FreeEnergyGma
 from hysteresis_plugins.rigs.gma_known_truth import TRUTH
+
+NAMES = [parameter.name for parameter in FreeEnergyGma.parameters]
 
 
 def built(rig="gma-known-truth", **more):
@@ -54,3 +58,13 @@ def test_with_the_redundant_ones_fixed_every_parameter_counts():
 def test_no_truth_no_answer():
     assert recovery(trials({}), built(rig="gma")) is None
     assert recovery(trials({}, status="raised"), built())["trials"] == []
+
+
+def test_the_count_at_which_six_digits_are_reached_for_good():
+    points = np.repeat(np.array([[TRUTH[name] for name in NAMES]]), 4, axis=0)
+    points[:, NAMES.index("H_c")] *= np.array([1.5, 1.0 + 1e-8, 1.2, 1.0 + 1e-8])
+    trace = Trace(np.array([3, 7, 20, 41]), np.array([4.0, 3.0, 2.0, 1.0]), points)
+    short = Trace(trace.evaluations[:1], trace.losses[:1], trace.points[:1])
+    table = trials({}, {}).assign(problem="a")
+    told = recovery(table, built(), {("a", "pso", 0): trace, ("a", "pso", 1): short})
+    assert [row["evaluations"] for row in told["trials"]] == [41, None]
