@@ -25,7 +25,7 @@ from hysteresis_bench.diagnosis.stack import OFFSETS, OUTER, Stack
 from hysteresis_bench.diagnosis.terms import Equation, find_terms
 from hysteresis_bench.diagnosis.ties import Tie, tie
 from hysteresis_bench.diagnosis.trials import Bench, Trial
-from hysteresis_bench.diagnosis.words import headline, warnings
+from hysteresis_bench.diagnosis.words import carries_over, headline, warnings
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fitting import fitted_model
 from hysteresis_bench.identifiability import analyse
@@ -99,12 +99,15 @@ def diagnose(
     after = before if final.names == bare.names else _stage(full, final, ready)
     equation, remains = _left(ready.fitted, after, floor)
     verdict: Verdict = "effect-found" if adopted else "no-effect-needed"
-    if remains or alone:
+    if remains or alone or not carries_over(before, after):
         verdict = "unexplained-residual"
+    told = warnings(built, ready.fitted, final, alone, loud.floor < floor, ties)
+    if not carries_over(before, after):
+        told = ("What was adopted does not carry over to the held-out records: do not believe the names.", *told)
     return Diagnosis(
         model,
         verdict,
-        headline(verdict, adopted, alone, before, after, loud, dataset.units),
+        headline(verdict, adopted, alone, before, after, loud, ties, dataset.units),
         adopted,
         offset,
         before,
@@ -126,7 +129,7 @@ def diagnose(
         _model(after, dataset, ready, model, settings or {}, preparation),
         _responses(ready, before, after),
         {"fitted": [r.name for r in ready.fitted], "held_out": [r.name for r in ready.held_out], "how": how},
-        warnings(built, ready.fitted, final, alone, loud.floor < floor, ties),
+        told,
         dataset.units,
     )
 

@@ -19,23 +19,35 @@ def headline(
     before: Stage,
     after: Stage,
     noise: Noise,
+    ties: Sequence[Tie],
     units: Mapping[str, str],
 ) -> str:
-    """The verdict, with the error before and after."""
+    """The verdict, with the error before and after; an effect that is tied is never named alone."""
     unit = "" if units.get("output", "1") == "1" else f" {units['output']}"
     first, last = (stage.held_out or stage.fitted for stage in (before, after))
     where = "on what was held out" if after.held_out else "on what was fitted"
     if alone:
         return "The output does not follow the input: the model explains less than half of it, and no effect is named."
     if adopted:
-        named = listed(adopted)
-        found = f"The model lacks {named}: {where} the RMSE falls from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
+        named = listed([_or_its_rivals(name, ties) for name in adopted])
+        moves = "falls" if last.rmse < first.rmse else "does NOT fall, it goes"
+        found = f"The model lacks {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
     else:
         found = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
     told = f"{found}; the noise is {noise.floor:.3g}."
     if verdict == "unexplained-residual":
         told += " Something is left that no effect explains."
     return told
+
+
+def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
+    rivals = [tie.rival for tie in ties if tie.effect == name]
+    return f"{name} (or {', '.join(rivals)}: these records cannot tell)" if rivals else name
+
+
+def carries_over(before: Stage, after: Stage) -> bool:
+    """Does what was adopted also help where it was not fitted? True where nothing was held out."""
+    return before.held_out is None or after.held_out is None or after.held_out.rmse <= before.held_out.rmse
 
 
 def warnings(
