@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,8 +12,10 @@ from rich.console import Console
 from rich.table import Table
 
 from hysteresis_bench import registry
+from hysteresis_bench.commands.console import plain_console
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
+from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.errors import UserError, nearest
 
 DONE, FAILED_TRIALS, USER_AT_FAULT = 0, 1, 2
@@ -46,13 +47,6 @@ def _escaped(text: str) -> str:
     return escape(text)
 
 
-def _console() -> Console:
-    console = Console()
-    if not console.is_terminal and "COLUMNS" not in os.environ:
-        console.width = 120  # a file or a pipe has no width of its own
-    return console
-
-
 @click.group(cls=Group, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100})
 @click.version_option(package_name="hysteresis-bench")
 def main() -> None:
@@ -75,7 +69,7 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
     from hysteresis_bench.report.published import check_published_beside
     from hysteresis_bench.study.results import FINISHED
 
-    console = _console()
+    console = plain_console()
     if is_diagnosis_study(study):
         sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
     check_published_beside(study)
@@ -125,76 +119,9 @@ def report(results: Path, open_it: bool) -> None:
     from hysteresis_bench.report import write_report
 
     page = write_report(results)
-    _say_path(_console(), "report", page)
+    _say_path(plain_console(), "report", page)
     if open_it:
         click.launch(str(page))
-
-
-def _model_options(command: Callable) -> Callable:
-    """What `fit` needs to know about the data and the model."""
-    for option in reversed(
-        (
-            click.argument("data", type=existing_file, nargs=-1, required=True),
-            click.option("--model", required=True, help="A registered model; see `list models`."),
-            click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated."),
-            click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter."),
-            click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known."),
-            click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted."),
-            click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input."),
-            click.option("--flip", is_flag=True, help="Change the sign of the input."),
-            click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored."),
-            click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring."),
-            click.option("--seed", type=int, default=0, show_default=True),
-        )
-    ):
-        command = option(command)
-    return command
-
-
-@main.command()
-@_model_options
-@click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
-@click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
-@click.option("--out", type=folder, help="Where model.json, the figure and the page go; default: NAME-fit.")
-def fit(
-    data: Sequence[Path],
-    model: str,
-    effects: Sequence[str],
-    bounds: Sequence[str],
-    fixed: Sequence[str],
-    held_out: Sequence[str],
-    input_offset: float,
-    flip: bool,
-    skip: float | None,
-    settle: bool,
-    seed: int,
-    optimizer: str | None,
-    budget: int | None,
-    out: Path | None,
-) -> None:
-    """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
-    from hysteresis_bench import fit as fit_model
-    from hysteresis_bench import load
-    from hysteresis_bench.report.fit_folder import print_fit, write_fit
-
-    dataset = load(*data, held_out=held_out, skip=skip)
-    fitted = fit_model(
-        dataset,
-        model,
-        effects,
-        bounds=_pairs(bounds),
-        fixed=_values(fixed),
-        settle=settle,
-        input_offset=input_offset,
-        flip=flip,
-        seed=seed,
-        **({"optimizer": optimizer} if optimizer else {}),
-        **({"budget": budget} if budget else {}),
-    )
-    console = _console()
-    print_fit(fitted, console)
-    page = write_fit(out or Path(f"{data[0].stem}-fit"), fitted, data)
-    _say_path(console, "page", page)
 
 
 @main.command()
@@ -207,7 +134,7 @@ def predict(model: Path, data: Sequence[Path], out: Path) -> None:
     from hysteresis_bench.data_files import write_csv
 
     write_csv(out, predict_output(model, *data))
-    _say_path(_console(), "prediction", out)
+    _say_path(plain_console(), "prediction", out)
 
 
 @main.command()
@@ -228,7 +155,7 @@ def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
         known = nearest(experiment, bench.experiments)
         raise UserError("measure", f'rig {rig} has no experiment "{experiment}". {known}')
     write_csv(out, bench.measure(experiment, generator(seed, rig, experiment)))
-    _say_path(_console(), "data", out)
+    _say_path(plain_console(), "data", out)
 
 
 @main.command("list")
@@ -238,7 +165,7 @@ def list_plugins(what: str | None) -> None:
     known = (*KINDS, "studies")
     if what is not None and what not in known:
         raise UserError("list", f'there are no "{what}". {nearest(what, known)}')
-    console = _console()
+    console = plain_console()
     for kind in KINDS:
         if what in (None, kind):
             _list_kind(kind, console)
@@ -280,38 +207,10 @@ def _list_studies(console: Console) -> None:
     console.print(table)
 
 
-def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
-    """P=LO:HI ..."""
-    found, faults = {}, []
-    for text in texts:
-        name, _, interval = text.partition("=")
-        low, _, high = interval.partition(":")
-        try:
-            found[name.strip()] = (float(low), float(high))
-        except ValueError:
-            faults.append(f'"{text}" should read PARAMETER=LOW:HIGH, such as a=0.1:10.')
-    if faults:
-        raise UserError("--bounds", faults)
-    return found
-
-
-def _values(texts: Sequence[str]) -> dict[str, float]:
-    """P=VALUE ..."""
-    found, faults = {}, []
-    for text in texts:
-        name, _, value = text.partition("=")
-        try:
-            found[name.strip()] = float(value)
-        except ValueError:
-            faults.append(f'"{text}" should read PARAMETER=VALUE, such as n=1.')
-    if faults:
-        raise UserError("--fix", faults)
-    return found
-
-
 def _say_path(console: Console, what: str, path: Path) -> None:
     console.print(f"{what}: {path}", highlight=False, soft_wrap=True)
 
 
 main.add_command(control)
 main.add_command(diagnose)
+main.add_command(fit)

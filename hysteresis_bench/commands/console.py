@@ -1,0 +1,15 @@
+"""The terminal that commands print to."""
+
+from __future__ import annotations
+
+import os
+
+from rich.console import Console
+
+
+def plain_console() -> Console:
+    """As wide as the terminal; 120 columns for a file or a pipe, which have no width of their own."""
+    console = Console()
+    if not console.is_terminal and "COLUMNS" not in os.environ:
+        console.width = 120
+    return console

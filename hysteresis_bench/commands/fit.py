@@ -1,0 +1,100 @@
+"""The command `fit`: parameters with standard errors, model.json, a figure, a page."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.errors import UserError
+
+
+@click.command()
+@click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option("--model", required=True, help="A registered model; see `list models`.")
+@click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
+@click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter.")
+@click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known.")
+@click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
+@click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
+@click.option("--flip", is_flag=True, help="Change the sign of the input.")
+@click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored.")
+@click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring.")
+@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
+@click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Where model.json, the figure and the page go; default: NAME-fit.",
+)
+def fit(
+    data: Sequence[Path],
+    model: str,
+    effects: Sequence[str],
+    bounds: Sequence[str],
+    fixed: Sequence[str],
+    held_out: Sequence[str],
+    input_offset: float,
+    flip: bool,
+    skip: float | None,
+    settle: bool,
+    seed: int,
+    optimizer: str | None,
+    budget: int | None,
+    out: Path | None,
+) -> None:
+    """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
+    from hysteresis_bench import fit as fit_model
+    from hysteresis_bench import load
+    from hysteresis_bench.report.fit_folder import print_fit, write_fit
+
+    dataset = load(*data, held_out=held_out, skip=skip)
+    fitted = fit_model(
+        dataset,
+        model,
+        effects,
+        bounds=_pairs(bounds),
+        fixed=_values(fixed),
+        settle=settle,
+        input_offset=input_offset,
+        flip=flip,
+        seed=seed,
+        **({"optimizer": optimizer} if optimizer else {}),
+        **({"budget": budget} if budget else {}),
+    )
+    console = plain_console()
+    print_fit(fitted, console)
+    page = write_fit(out or Path(f"{data[0].stem}-fit"), fitted, data)
+    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+
+
+def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
+    """P=LO:HI ..."""
+    found, faults = {}, []
+    for text in texts:
+        name, _, interval = text.partition("=")
+        low, _, high = interval.partition(":")
+        try:
+            found[name.strip()] = (float(low), float(high))
+        except ValueError:
+            faults.append(f'"{text}" should read PARAMETER=LOW:HIGH, such as a=0.1:10.')
+    if faults:
+        raise UserError("--bounds", faults)
+    return found
+
+
+def _values(texts: Sequence[str]) -> dict[str, float]:
+    """P=VALUE ..."""
+    found, faults = {}, []
+    for text in texts:
+        name, _, value = text.partition("=")
+        try:
+            found[name.strip()] = float(value)
+        except ValueError:
+            faults.append(f'"{text}" should read PARAMETER=VALUE, such as n=1.')
+    if faults:
+        raise UserError("--fix", faults)
+    return found
