@@ -27,7 +27,7 @@ def print_summary(results: Results, console: Console) -> None:
             table.add_column(heading, justify="right")
         if not (tell := len(problem.trials) >= stats.ENOUGH):
             table.caption = f"against each other: {stats.TOO_FEW} ({stats.ENOUGH} are needed)"
-        table.add_column("against best" if tell else "")
+        table.add_column("against best" if tell else "", no_wrap=True)
         for _, row in summary[summary["problem"] == problem.name].iterrows():
             p = probability(row["p_best"])
             verdict = row["verdict_best"]
@@ -39,9 +39,16 @@ def print_summary(results: Results, console: Console) -> None:
                 whole(row["evaluations_to_success_median"]),
                 seconds(row["seconds_median"]),
                 str(row["failed"]) if row["failed"] else NONE,
-                "" if not tell else verdict if p == NONE or verdict == stats.SAME else f"{verdict}, p {p}",
+                _short(verdict, p) if tell else "",
                 style="bold" if row["optimizer"] == problem.winner else None,
             )
         console.print(table)
         console.print()
     console.print(run_in_words(results.trials, here))
+
+
+def _short(verdict: str, p: str) -> str:
+    """A verdict that fits its column; the report says how large the effect is."""
+    if verdict == stats.SAME:
+        return "cannot tell apart"
+    return verdict if p == NONE else f"{verdict.partition(' (')[0]}, p {p}"
