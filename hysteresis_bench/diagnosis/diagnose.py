@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -14,17 +15,19 @@ from hysteresis_bench import registry
 from hysteresis_bench.accuracy import accuracy
 from hysteresis_bench.diagnosis.advice import Advice, advise
 from hysteresis_bench.diagnosis.crew import Crew
+from hysteresis_bench.diagnosis.findings import candidate_rows, last_steps, step_of, ties_of, waterfall_of
 from hysteresis_bench.diagnosis.fit_system import split
 from hysteresis_bench.diagnosis.memory import memory
 from hysteresis_bench.diagnosis.noise import noise, pooled_noise
 from hysteresis_bench.diagnosis.preparation import SETTLED, thinned, with_held_out
 from hysteresis_bench.diagnosis.residual_tests import residual_tests
-from hysteresis_bench.diagnosis.result import Candidate, Diagnosis, Stage, Step, Verdict
+from hysteresis_bench.diagnosis.result import Diagnosis, Stage, Verdict
 from hysteresis_bench.diagnosis.selection import Selection, with_simplest_offset
 from hysteresis_bench.diagnosis.stack import OFFSETS, OUTER, Stack
 from hysteresis_bench.diagnosis.terms import Equation, find_terms
-from hysteresis_bench.diagnosis.ties import Tie, tie
+from hysteresis_bench.diagnosis.ties import Tie
 from hysteresis_bench.diagnosis.trials import Bench, Trial
+from hysteresis_bench.diagnosis.without_hysteresis import without_hysteresis
 from hysteresis_bench.diagnosis.words import carries_over, headline, warnings
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fitting import fitted_model
@@ -74,8 +77,13 @@ def diagnose(
     seen = seen.map(lambda record: record.settled(SETTLED)) if settle else seen
     ready, how = with_held_out(seen)
     built = registry.build("models", model, settings)
-    full = Bench(Stack(built, ready.fitted, tuple(effects), bounds, fixed), seed)
-    bench = Bench(Stack(built, thinned(ready.fitted), tuple(effects), bounds, fixed), seed)
+    remembers = memory(ready.fitted)
+    off = {} if remembers.needed else without_hysteresis(built, ready.fitted)
+    known = {**off, **(fixed or {})}
+    full, bench = (
+        Bench(Stack(built, records, tuple(effects), bounds, known), seed)
+        for records in (ready.fitted, thinned(ready.fitted))
+    )
     loud = pooled_noise(ready.fitted)
     span = max(float(np.ptp(record.measured)) for record in ready.fitted)
     floor = max(loud.floor, FINEST * span)
@@ -87,16 +95,16 @@ def diagnose(
         alone = not _follows(full.stack, found)
         found = base if alone else found
         final = with_simplest_offset(selection, found)
-        ties, rivals = _ties(selection, found)
-        steps = tuple(_step(selection, number) for number in range(len(selection.rounds)))
-        candidates = _candidates(selection, found, impossible, ties)
-        waterfall = _waterfall(selection, base, found)
+        ties, rivals = ties_of(selection, found)
+        steps = tuple(step_of(selection, number) for number in range(len(selection.rounds)))
+        candidates = candidate_rows(selection, found, impossible, ties)
+        waterfall = waterfall_of(selection, base, found)
     offset = next((name for name in OFFSETS if name in final.names), "")
     nuisance = frozenset({"record-offset"} & final.names)
-    bare = bench.bare(nuisance)
+    whole, thin = (replace(one, stack=replace(one.stack, fixed=fixed)) for one in (full, bench))
     adopted = (*(label for label, _ in waterfall[1:]), *(["bias"] if offset == "bias" else []))
-    before = _stage(full, bare, ready)
-    after = before if final.names == bare.names else _stage(full, final, ready)
+    before = _stage(whole, thin.bare(nuisance), ready)
+    after = before if final.names == nuisance and not off else _stage(full, final, ready)
     equation, remains = _left(ready.fitted, after, floor)
     verdict: Verdict = "effect-found" if adopted else "no-effect-needed"
     if remains or alone or not carries_over(before, after):
@@ -119,12 +127,12 @@ def diagnose(
         (
             (f"{model} alone", before.fitted.rmse),
             *waterfall[1:-1],
-            *_last(waterfall, after, offset),
+            *last_steps(waterfall, after, offset),
             ("noise", loud.floor),
         ),
         ties,
         _advice(bench, found, rivals, ready.fitted, floor, ties),
-        memory(ready.fitted),
+        remembers,
         equation,
         _model(after, dataset, ready, model, settings or {}, preparation),
         _responses(ready, before, after),
@@ -179,84 +187,6 @@ def _stage(bench: Bench, trial: Trial, ready: Dataset) -> Stage:
         accuracy(system, ready.held_out, values) if ready.held_out else None,
         tuple(residual_tests(ready.fitted, residuals, [noise(record) for record in ready.fitted])),
     )
-
-
-def _ties(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[Trial]]:
-    """Every adopted effect against what would do as well in its place."""
-    ties, rivals = [], []
-    for name in selection.adopted(found):
-        for rival, trial in selection.alternatives(found, name).items():
-            if selection.tied(found, trial):
-                apart = float(np.sqrt(np.mean((found.residuals - trial.residuals) ** 2)))
-                ties.append(tie(name, rival, apart))
-                rivals.append(trial)
-    return tuple(ties), rivals
-
-
-def _step(selection: Selection, number: int) -> Step:
-    at = selection.rounds[number]
-    return Step(
-        tuple(sorted(at.current.names)),
-        at.current.rmse,
-        {name: trial.cv_rmse for name, trial in at.trials.items()},
-        {name: test.p for name, test in at.tests.items()},
-        at.chosen,
-    )
-
-
-def _candidates(
-    selection: Selection, found: Trial, impossible: Mapping[str, str], ties: Sequence[Tie]
-) -> tuple[Candidate, ...]:
-    rows = []
-    last = selection.rounds[-1]
-    for name in selection.candidates:
-        adopted = name in found.names
-        smaller, larger = (selection.without(found, name), found) if adopted else (last.current, last.trials.get(name))
-        if larger is None:
-            continue
-        test, gain = selection.compared(smaller, larger)
-        rows.append(
-            Candidate(
-                name,
-                True,
-                adopted=adopted,
-                rmse=larger.rmse,
-                cv_rmse=larger.cv_rmse,
-                p=test.p,
-                advantage=gain,
-                parameters={
-                    key.removeprefix(f"{name}."): value
-                    for key, value in larger.values.items()
-                    if key.startswith(f"{name}.")
-                },
-                at_bound=tuple(key for key in larger.at_bound if key.startswith(f"{name}.")),
-                tied_with=tuple(
-                    one.rival if one.effect == name else one.effect for one in ties if name in (one.effect, one.rival)
-                ),
-            )
-        )
-    rows.sort(key=lambda row: (not row.adopted, row.cv_rmse))
-    return (*rows, *(Candidate(name, False, reason) for name, reason in impossible.items()))
-
-
-def _waterfall(selection: Selection, base: Trial, found: Trial) -> tuple[tuple[str, float], ...]:
-    """From the bare model, the effect that helps most first."""
-    current, steps = base, [("", base.rmse)]
-    while left := found.names - current.names:
-        names = sorted(left)
-        best = min(zip(selection.with_each(current, names), names, strict=True), key=lambda pair: pair[0].rmse)
-        current = best[0]
-        steps.append((best[1], current.rmse))
-    return tuple(steps)
-
-
-def _last(waterfall: Sequence[tuple[str, float]], after: Stage, offset: str) -> list[tuple[str, float]]:
-    """The last steps, with the error of the final fit to all samples."""
-    effects = [label for label, _ in waterfall[1:]][-1:]
-    if offset == "bias":
-        steps = [(label, rmse) for label, rmse in waterfall[1:]][-1:]
-        return [*steps, ("bias", after.fitted.rmse)]
-    return [(label, after.fitted.rmse) for label in effects]
 
 
 def _left(records: Sequence[Record], stage: Stage, floor: float) -> tuple[Equation | None, bool]:

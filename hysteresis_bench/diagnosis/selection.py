@@ -4,7 +4,9 @@ An effect is adopted when it passes three tests: the nested-model test at LEVEL 
 blocks left out, on which it must win by `CLEAR` standard errors; and it must matter: a claim is made about an
 effect that the noise does not hide, not about every trace. Of those that pass, the one with the best
 cross-validated error joins; then every adopted effect is weighed against each alternative in its place, given
-the others, because the first to join may have been a stand-in for two; then what is no longer needed leaves.
+the others, because the first to join may have been a stand-in for two; then what is no longer needed leaves. In
+the end, an effect that explains less than what is left beside it is not named: where a model is wrong by itself,
+every effect takes a little of its error.
 """
 
 from __future__ import annotations
@@ -28,11 +30,18 @@ MATTERS = 1.03
 SHARE = 0.1
 """Of the excess of the mean square over the noise's, which an effect must explain."""
 
+NAMED = 0.5
+"""... and must explain in the end, or to be exchanged for a simpler one: more than what then remains."""
+
 CLOSE = 0.5
 """Two systems whose outputs differ by less than this many times what they leave, or the noise (RMS), are alike."""
 
 ALIKE = 1.02
 """... and whose cross-validated errors are within this ratio."""
+
+MISFIT, CLEARLY = 1.2, 0.1
+"""RMSE over noise from which the model itself is wrong, and the share of the excess that tells two systems apart
+there."""
 
 CONTENDERS, WITHIN = 4, 1.6
 """So many of the best, within this ratio of the least RMSE, are fitted again from other starts."""
@@ -78,7 +87,7 @@ class Selection:
             else:
                 better = self._exchanged(current) or current
             if better.names in visited:
-                return current
+                return self._named(current)
             current = better
             visited.add(current.names)
 
@@ -101,20 +110,30 @@ class Selection:
 
     def needed(self, smaller: Trial, larger: Trial, candidates: int = 1) -> bool:
         """Does the larger system pass the three tests against the smaller?"""
-        excess = max(smaller.rmse**2 - self.floor**2, 0.0)
-        explained = smaller.rmse**2 - larger.rmse**2
         return (
             smaller.rmse > MATTERS * max(larger.rmse, self.floor / MATTERS**2)
-            and explained > SHARE * excess
+            and self.share(smaller, larger) > SHARE
             and advantage(larger.left_out, smaller.left_out, self.bench.blocks) > CLEAR
             and self.bench.test(smaller, larger).p * candidates < LEVEL
         )
 
+    def share(self, smaller: Trial, larger: Trial) -> float:
+        """Of the mean square that the smaller system leaves over the noise, what the larger one explains."""
+        excess = smaller.rmse**2 - self.floor**2
+        return (smaller.rmse**2 - larger.rmse**2) / excess if excess > 0.0 else 1.0
+
     def tied(self, one: Trial, other: Trial) -> bool:
-        """Do the data not tell them apart?"""
+        """Do the data not tell them apart?
+
+        Where both leave much more than the noise, the difference of two wrong systems is no evidence, however
+        significant: it has to be a good part of what is left.
+        """
         gain = advantage(one.left_out, other.left_out, self.bench.blocks)
         ratio = other.cv_rmse / one.cv_rmse if one.cv_rmse > 0 else 1.0
         apart = float(np.sqrt(np.mean((one.residuals - other.residuals) ** 2)))
+        worse, better = (one, other) if one.rmse > other.rmse else (other, one)
+        if better.rmse > MISFIT * self.floor and self.share(worse, better) < CLEARLY:
+            return apart < better.rmse
         similar = apart < CLOSE * max(self.floor, one.rmse) and ratio < ALIKE and 1 / ratio < ALIKE
         return similar and abs(gain) < CLEAR
 
@@ -153,6 +172,18 @@ class Selection:
             current = better
         return current
 
+    def _named(self, current: Trial) -> Trial:
+        """Without the effects that explain less than what is left beside them, the least telling first."""
+        while names := self.adopted(current):
+            smaller = self._ask(
+                [("reduced", current, name) for name in names], [current.names - {name} for name in names]
+            )
+            least = min(smaller, key=lambda trial: self.share(trial, current))
+            if self.share(least, current) > NAMED:
+                break
+            current = self._exchanged(least) or least
+        return current
+
     def _dropped(self, current: Trial) -> Trial | None:
         names = self.adopted(current)
         if len(names) < 2:
@@ -169,7 +200,10 @@ class Selection:
             best = self.simplest([current, *rivals])
             if best is not current and best.cv_rmse < ALIKE * current.cv_rmse:
                 clear = advantage(best.left_out, current.left_out, self.bench.blocks) > CLEAR
-                if self.tied(current, best) or (clear and best.rmse < current.rmse):
+                more = len(best.values) - len(current.values)
+                least = NAMED if more > 0 else 0.0
+                better = (clear or more < 0) and self.share(current, best) > least
+                if better or self.tied(current, best):
                     return self.bench.refitted(best)
         return None
 

@@ -16,6 +16,7 @@ from hysteresis_bench.signals import Record
 
 INNER = (
     "eddy-current",
+    "rayleigh-hysteresis",
     "backlash",
     "asymmetry",
     "input-lag",
@@ -27,7 +28,7 @@ INNER = (
     "resonance",
     "transport-delay",
 )
-OUTER = ("periodic-disturbance", "drift", "bias", "record-offset")
+OUTER = ("periodic-disturbance", "drift", "settling", "bias", "record-offset")
 """Innermost first: what acts on the input, then on the response, then what is added to it. An effect that is
 not named here, such as one of another distribution, stands between the two."""
 

@@ -220,7 +220,7 @@ def exponents(unit: str) -> dict[str, int]:
     powers = dict.fromkeys(QUANTITIES, 0)
     for part, sign in ((numerator, 1), (denominator, -1)):
         for symbol, quantity in (("I", "input"), ("O", "output"), ("T", "time"), ("s", "time")):
-            powers[quantity] += sign * len(re.findall(rf"\b{symbol}\b", part))
+            powers[quantity] += sign * sum(int(power or 1) for power in re.findall(rf"\b{symbol}\b(?:\^(\d))?", part))
     return powers
 
 

@@ -225,3 +225,24 @@ def test_too_few_samples_have_no_spectrum():
 )
 def test_temperature_has_to_be_known_and_to_change(columns, reason):
     assert against("temperature-sensitivity", record(name="warm", columns=columns)) == reason
+
+
+def test_rayleigh_s_remanence_grows_with_the_square_of_the_amplitude():
+    for amplitude in (1.0, 3.0):
+        drive = amplitude * np.sin(2 * np.pi * (TIME - 2.0))
+        y = applied("rayleigh-hysteresis", record(drive=drive).signal, coefficient=0.2)
+        remanence = 0.2 * amplitude**2 / 4  # up to coefficient a²/2, and a quarter of a² less on the way back
+        np.testing.assert_allclose(y[[200, 250]], [-remanence, remanence], atol=1e-12)
+
+
+def test_settling_owes_an_exponential_to_what_went_before():
+    y = applied("settling", record().signal, size=0.7, time_constant=1.5)
+    np.testing.assert_allclose(y - 2.0 * DRIVE, 0.7 * (1.0 - np.exp(-(TIME - 2.0) / 1.5)), atol=1e-12)
+
+
+def test_one_frequency_does_not_tell_a_resonance():
+    sine, slower = record(), record(drive=3.0 * np.sin(np.pi * TIME))
+    shrinking = record(drive=DRIVE * (6.5 - TIME))
+    triangle = record(drive=3.0 * np.arcsin(np.sin(2 * np.pi * TIME)))
+    assert "one frequency" in against("resonance", sine, shrinking)
+    assert against("resonance", sine, slower) == against("resonance", triangle) == ""

@@ -15,6 +15,10 @@ FINEST = 0.02
 COARSE = 0.25
 """An input that moves by more than this share of its range in a typical step is not resolved in time."""
 
+SAME, PURE = 0.2, 0.99
+"""Share by which frequencies may differ, and share of the power within it, for an input of one frequency. A
+triangle has 0.986 in its fundamental: its harmonics are other frequencies."""
+
 
 def input_span(records: Sequence[Record]) -> float:
     """Largest range of the input within one record."""
@@ -65,6 +69,23 @@ def dominant_frequency(record: Record) -> float:
     bend = before - 2.0 * here + after
     between = 0.5 * (before - after) / bend if bend < 0.0 else 0.0  # the vertex of a parabola
     return max(lowest, float((peak + between) * frequencies[1]))
+
+
+def one_frequency(records: Sequence[Record]) -> bool:
+    """Is the input of all records a sine of the same frequency, but for slow changes of its amplitude?"""
+    moving = [record for record in records if np.ptp(record.input) > 0.0 and record.time.size >= 8]
+    centres = [dominant_frequency(record) for record in moving]
+    if not moving or max(centres) > (1.0 + SAME) * min(centres):
+        return False
+    return all(_share_near(record, centre) > PURE for record, centre in zip(moving, centres, strict=True))
+
+
+def _share_near(record: Record, centre: float) -> float:
+    """Of the input's power, what lies within SAME of a frequency, or within what the record's duration resolves."""
+    frequencies, amplitudes = spectrum(record.time, record.input)
+    power = amplitudes**2
+    near = np.abs(frequencies - centre) <= SAME * centre + 2.0 / duration(record)
+    return float(power[near].sum() / power.sum())
 
 
 def without_time(records: Sequence[Record]) -> str:

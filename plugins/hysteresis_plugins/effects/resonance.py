@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import one_frequency
 
 
 @dataclass(frozen=True)
@@ -51,6 +52,8 @@ class Resonance(Effect):
             return "the time of these records is only an index"
         if all(float(np.ptp(record.input)) == 0.0 for record in records):
             return "the input never moves"
+        if one_frequency(records):
+            return "at the one frequency of these records a resonance is a delay and a gain, which lag and model have"
         return ""
 
 

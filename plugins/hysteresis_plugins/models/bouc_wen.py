@@ -35,7 +35,9 @@ class BoucWen(Model):
     """
 
     parameters = (
-        Parameter("alpha", 0.0, 5.0, meaning="share of the linear response that the hysteresis takes at h = 0"),
+        Parameter(
+            "alpha", 0.0, 5.0, null=0.0, meaning="share of the linear response that the hysteresis takes at h = 0"
+        ),
         Parameter("beta", 0.0, 5.0, unit="1/{input}", meaning="shape of the loop: relaxation on any movement"),
         Parameter("gamma", 0.0, 5.0, unit="1/{input}", meaning="shape of the loop: relaxation by direction"),
         Parameter("d", 0.0, 5.0, unit="{output}/{input}", meaning="linear response"),

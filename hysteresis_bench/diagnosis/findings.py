@@ -1,0 +1,90 @@
+"""What the search found, as the result tells it: ties, rounds, rows of candidates, the waterfall of errors."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from hysteresis_bench.diagnosis.result import Candidate, Stage, Step
+from hysteresis_bench.diagnosis.selection import Selection
+from hysteresis_bench.diagnosis.ties import Tie, tie
+from hysteresis_bench.diagnosis.trials import Trial
+
+
+def ties_of(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[Trial]]:
+    """Every adopted effect against what would do as well in its place."""
+    ties, rivals = [], []
+    for name in selection.adopted(found):
+        for rival, trial in selection.alternatives(found, name).items():
+            if selection.tied(found, trial):
+                apart = float(np.sqrt(np.mean((found.residuals - trial.residuals) ** 2)))
+                ties.append(tie(name, rival, apart))
+                rivals.append(trial)
+    return tuple(ties), rivals
+
+
+def step_of(selection: Selection, number: int) -> Step:
+    at = selection.rounds[number]
+    return Step(
+        tuple(sorted(at.current.names)),
+        at.current.rmse,
+        {name: trial.cv_rmse for name, trial in at.trials.items()},
+        {name: test.p for name, test in at.tests.items()},
+        at.chosen,
+    )
+
+
+def candidate_rows(
+    selection: Selection, found: Trial, impossible: Mapping[str, str], ties: Sequence[Tie]
+) -> tuple[Candidate, ...]:
+    rows = []
+    last = selection.rounds[-1]
+    for name in selection.candidates:
+        adopted = name in found.names
+        smaller, larger = (selection.without(found, name), found) if adopted else (last.current, last.trials.get(name))
+        if larger is None:
+            continue
+        test, gain = selection.compared(smaller, larger)
+        rows.append(
+            Candidate(
+                name,
+                True,
+                adopted=adopted,
+                rmse=larger.rmse,
+                cv_rmse=larger.cv_rmse,
+                p=test.p,
+                advantage=gain,
+                parameters={
+                    key.removeprefix(f"{name}."): value
+                    for key, value in larger.values.items()
+                    if key.startswith(f"{name}.")
+                },
+                at_bound=tuple(key for key in larger.at_bound if key.startswith(f"{name}.")),
+                tied_with=tuple(
+                    one.rival if one.effect == name else one.effect for one in ties if name in (one.effect, one.rival)
+                ),
+            )
+        )
+    rows.sort(key=lambda row: (not row.adopted, row.cv_rmse))
+    return (*rows, *(Candidate(name, False, reason) for name, reason in impossible.items()))
+
+
+def waterfall_of(selection: Selection, base: Trial, found: Trial) -> tuple[tuple[str, float], ...]:
+    """From the bare model, the effect that helps most first."""
+    current, steps = base, [("", base.rmse)]
+    while left := found.names - current.names:
+        names = sorted(left)
+        best = min(zip(selection.with_each(current, names), names, strict=True), key=lambda pair: pair[0].rmse)
+        current = best[0]
+        steps.append((best[1], current.rmse))
+    return tuple(steps)
+
+
+def last_steps(waterfall: Sequence[tuple[str, float]], after: Stage, offset: str) -> list[tuple[str, float]]:
+    """The last steps, with the error of the final fit to all samples."""
+    effects = [label for label, _ in waterfall[1:]][-1:]
+    if offset == "bias":
+        steps = [(label, rmse) for label, rmse in waterfall[1:]][-1:]
+        return [*steps, ("bias", after.fitted.rmse)]
+    return [(label, after.fitted.rmse) for label in effects]
