@@ -28,7 +28,7 @@ INNER = (
     "resonance",
     "transport-delay",
 )
-OUTER = ("periodic-disturbance", "drift", "settling", "bias", "record-offset")
+OUTER = ("periodic-disturbance", "drift", "bias", "record-drift", "record-offset")
 """Innermost first: what acts on the input, then on the response, then what is added to it. An effect that is
 not named here, such as one of another distribution, stands between the two."""
 
@@ -91,7 +91,7 @@ class Stack:
         """Names of the effects that can be tried, and of those that cannot, with the reason."""
         possible, impossible = [], {}
         known = {*registry.names("effects"), *registry.offered()}
-        for name in sorted(known - {*OFFSETS, *self.own}):
+        for name in sorted(known - {*OFFSETS, "record-drift", *self.own}):
             if name not in self.model.offers and name not in registry.names("effects"):
                 impossible[name] = "it acts inside the state equation, and this model does not offer it"
             elif name not in self.model.offers and (fault := registry.load("effects", name).fault):

@@ -235,9 +235,16 @@ def test_rayleigh_s_remanence_grows_with_the_square_of_the_amplitude():
         np.testing.assert_allclose(y[[200, 250]], [-remanence, remanence], atol=1e-12)
 
 
-def test_settling_owes_an_exponential_to_what_went_before():
-    y = applied("settling", record().signal, size=0.7, time_constant=1.5)
-    np.testing.assert_allclose(y - 2.0 * DRIVE, 0.7 * (1.0 - np.exp(-(TIME - 2.0) / 1.5)), atol=1e-12)
+def test_record_drift_takes_a_line_from_every_record_and_leaves_its_mean():
+    effect = registry.build("effects", "record-drift")
+    slow = record(output=2.0 * DRIVE + 0.3 + 0.7 * (TIME - 2.0))
+    adjusted = effect.adjust((2.0 * DRIVE)[:, None], slow)[:, 0]
+    np.testing.assert_allclose(adjusted - 2.0 * DRIVE, 0.7 * (TIME - TIME.mean()), atol=1e-12)
+    part = replace(slow, history=200)  # only what is scored counts
+    np.testing.assert_allclose(
+        effect.adjust((2.0 * DRIVE)[:, None], part)[:, 0] - 2.0 * DRIVE, 0.7 * (TIME - 5.0), atol=1e-12
+    )
+    assert np.array_equal(effect.adjust((2.0 * DRIVE)[:, None], replace(slow, output=None))[:, 0], 2.0 * DRIVE)
 
 
 def test_one_frequency_does_not_tell_a_resonance():

@@ -1,0 +1,42 @@
+"""Record drift: one straight line in time a record, where every record drifts in its own way."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import without_time
+
+
+@dataclass(frozen=True)
+class RecordDrift(Effect):
+    """One straight line in time a record: a nuisance, estimated on every record that has an output as the slope of
+    measured minus simulated over its scored samples (the least-squares estimate).
+
+    The line is zero in the middle of what is scored: the mean is left to `record-offset`. A record without an
+    output is given none, as its drift is not known. What all records share is `drift`.
+    """
+
+    parameters: ClassVar[tuple[Parameter, ...]] = ()
+
+    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+        return inner(signal)
+
+    def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+        if record.output is None or not record.timed:
+            return simulated
+        scored = record.time[record.scored]
+        since = scored - np.mean(scored)
+        left = record.measured[:, None] - simulated[record.scored]
+        slope = since @ left / (since @ since)
+        return simulated + (record.time - np.mean(scored))[:, None] * slope
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return without_time(records)
