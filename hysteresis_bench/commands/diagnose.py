@@ -26,6 +26,7 @@ SHOWN = 8
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
 @click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored.")
 @click.option("--settle", is_flag=True, help="Repeat closed loops before scoring.")
+@click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
 @click.option("--seed", type=int, default=0, show_default=True)
@@ -38,6 +39,7 @@ def diagnose(
     flip: bool,
     skip: float | None,
     settle: bool,
+    accept_terms: bool,
     jobs: int | None,
     out: Path | None,
     seed: int,
@@ -52,7 +54,15 @@ def diagnose(
 
     dataset = load(*data, held_out=held_out, skip=skip)
     found = find(
-        dataset, model, effects=effects, input_offset=input_offset, flip=flip, settle=settle, seed=seed, jobs=jobs
+        dataset,
+        model,
+        effects=effects,
+        input_offset=input_offset,
+        flip=flip,
+        settle=settle,
+        accept_terms=accept_terms,
+        seed=seed,
+        jobs=jobs,
     )
     console = Console(soft_wrap=False)
     print_diagnosis(found, console)

@@ -15,7 +15,16 @@ from hysteresis_bench import registry
 from hysteresis_bench.accuracy import accuracy
 from hysteresis_bench.diagnosis.advice import Advice, advise
 from hysteresis_bench.diagnosis.crew import Crew
-from hysteresis_bench.diagnosis.findings import candidate_rows, last_steps, step_of, ties_of, waterfall_of
+from hysteresis_bench.diagnosis.description import NAME as DESCRIPTION
+from hysteresis_bench.diagnosis.description import accepted
+from hysteresis_bench.diagnosis.findings import (
+    candidate_rows,
+    description_row,
+    last_steps,
+    step_of,
+    ties_of,
+    waterfall_of,
+)
 from hysteresis_bench.diagnosis.fit_system import split
 from hysteresis_bench.diagnosis.memory import memory
 from hysteresis_bench.diagnosis.noise import noise, pooled_noise
@@ -64,10 +73,12 @@ def diagnose(
     input_offset: float = 0.0,
     flip: bool = False,
     jobs: int | None = None,
+    accept_terms: bool = False,
 ) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 
     effects : known to act, around the model from the beginning
+    accept_terms : add what describes the remaining residual to the model, as the effect "description"
     jobs : processes; default: as many as cores, at most 4
     Raises UserError telling every fault at once.
     """
@@ -104,8 +115,18 @@ def diagnose(
     whole, thin = (replace(one, stack=replace(one.stack, fixed=fixed)) for one in (full, bench))
     adopted = (*(label for label, _ in waterfall[1:]), *(["bias"] if offset == "bias" else []))
     before = _stage(whole, thin.bare(nuisance), ready)
-    after = before if final.names == nuisance and not off else _stage(full, final, ready)
+    after = before if final.names == nuisance else _stage(full, final, ready)
+    waterfall = (
+        (f"{model} alone", before.fitted.rmse),
+        *waterfall[1:-1],
+        *last_steps(waterfall, after, offset),
+    )
     equation, remains = _left(ready.fitted, after, floor)
+    if accept_terms and equation and equation.terms:
+        candidates = (description_row(equation, after), *candidates)
+        after = _stage(*_described(full, final, equation), ready)
+        adopted, waterfall = (*adopted, DESCRIPTION), (*waterfall, (DESCRIPTION, after.fitted.rmse))
+        equation, remains = _left(ready.fitted, after, floor)
     verdict: Verdict = "effect-found" if adopted else "no-effect-needed"
     if remains or alone or not carries_over(before, after):
         verdict = "unexplained-residual"
@@ -124,12 +145,7 @@ def diagnose(
         floor,
         candidates,
         steps,
-        (
-            (f"{model} alone", before.fitted.rmse),
-            *waterfall[1:-1],
-            *last_steps(waterfall, after, offset),
-            ("noise", loud.floor),
-        ),
+        (*waterfall, ("noise", loud.floor)),
         ties,
         _advice(bench, found, rivals, ready.fitted, floor, ties),
         remembers,
@@ -187,6 +203,12 @@ def _stage(bench: Bench, trial: Trial, ready: Dataset) -> Stage:
         accuracy(system, ready.held_out, values) if ready.held_out else None,
         tuple(residual_tests(ready.fitted, residuals, [noise(record) for record in ready.fitted])),
     )
+
+
+def _described(full: Bench, final: Trial, equation: Equation) -> tuple[Bench, Trial]:
+    """The final system with an equation's terms added to its output."""
+    stack = replace(full.stack, ready={DESCRIPTION: accepted(equation)})
+    return replace(full, stack=stack), replace(final, names=final.names | {DESCRIPTION})
 
 
 def _left(records: Sequence[Record], stage: Stage, floor: float) -> tuple[Equation | None, bool]:

@@ -6,8 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from hysteresis_bench.diagnosis.description import NAME
 from hysteresis_bench.diagnosis.result import Candidate, Stage, Step
 from hysteresis_bench.diagnosis.selection import Selection
+from hysteresis_bench.diagnosis.terms import Equation
 from hysteresis_bench.diagnosis.ties import Tie, tie
 from hysteresis_bench.diagnosis.trials import Trial
 
@@ -68,6 +70,14 @@ def candidate_rows(
         )
     rows.sort(key=lambda row: (not row.adopted, row.cv_rmse))
     return (*rows, *(Candidate(name, False, reason) for name, reason in impossible.items()))
+
+
+def description_row(equation: Equation, before: Stage) -> Candidate:
+    """What an accepted description did; p of its least significant term."""
+    left_out = before.fitted.rmse * float(np.sqrt(max(1.0 - equation.share, 0.0)))
+    coefficients = {part.term.symbol: part.coefficient for part in equation.terms}
+    worst = max(part.p for part in equation.terms)
+    return Candidate(NAME, True, adopted=True, rmse=left_out, cv_rmse=left_out, p=worst, parameters=coefficients)
 
 
 def waterfall_of(selection: Selection, base: Trial, found: Trial) -> tuple[tuple[str, float], ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cache, cached_property
 
 from hysteresis_bench import registry
@@ -28,11 +28,13 @@ INNER = (
     "resonance",
     "transport-delay",
 )
-OUTER = ("periodic-disturbance", "drift", "bias", "record-drift", "record-offset")
+OUTER = ("periodic-disturbance", "drift", "description", "bias", "record-drift", "record-offset")
 """Innermost first: what acts on the input, then on the response, then what is added to it. An effect that is
 not named here, such as one of another distribution, stands between the two."""
 
 OFFSETS = ("bias", "record-offset")
+NO_CLAIM = (*OFFSETS, "record-drift", "description")
+"""Nuisances that the user or the search puts there, and what is described and not explained: no candidates."""
 
 
 def place(name: str) -> tuple[int, str]:
@@ -49,6 +51,7 @@ class Stack:
     own : effects that the user put around the model to begin with, always there
     bounds : replaces parts of the boxes that follow from the records
     fixed : parameters that are known
+    ready : effects with settings of their own, by name
     """
 
     model: Model
@@ -56,9 +59,13 @@ class Stack:
     own: tuple[str, ...] = ()
     bounds: Mapping[str, tuple[float, float]] | None = None
     fixed: Mapping[str, float] | None = None
+    ready: Mapping[str, Effect] = field(default_factory=dict)
 
     def effect(self, name: str) -> Effect:
-        """An effect with its default settings: the model's own, where it offers one of this name."""
+        """An effect, with its default settings where none is ready: the model's own, where it offers one of this
+        name."""
+        if name in self.ready:
+            return self.ready[name]
         return self.model.offers[name] if name in self.model.offers else _built(name)
 
     def system(self, names: Collection[str]) -> System:
@@ -91,7 +98,7 @@ class Stack:
         """Names of the effects that can be tried, and of those that cannot, with the reason."""
         possible, impossible = [], {}
         known = {*registry.names("effects"), *registry.offered()}
-        for name in sorted(known - {*OFFSETS, "record-drift", *self.own}):
+        for name in sorted(known - {*NO_CLAIM, *self.own}):
             if name not in self.model.offers and name not in registry.names("effects"):
                 impossible[name] = "it acts inside the state equation, and this model does not offer it"
             elif name not in self.model.offers and (fault := registry.load("effects", name).fault):

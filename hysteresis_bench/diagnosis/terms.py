@@ -54,12 +54,17 @@ class Term:
         """Does it need a time base?"""
         return self.kind in ("rate", "|rate|", "lag", "time", "log time")
 
+    @property
+    def of_output(self) -> bool:
+        """Is it a function of the modelled output?"""
+        return self.kind in ("y", "y2")
+
     def column(self, record: Record, simulated: NDArray | None = None) -> NDArray:
         """(samples,) of the whole record, history included; simulated : (samples,) the model's output.
         Raises ValueError where a term of the output gets none."""
         u, time = record.input, record.time
         x = u - self.centre
-        if self.kind in ("y", "y2"):
+        if self.of_output:
             if simulated is None:
                 raise ValueError(f"the term {self.kind} needs the model's output")
             return simulated if self.kind == "y" else simulated**2
