@@ -89,7 +89,7 @@ def diagnose(
     ready, how = with_held_out(seen)
     built = registry.build("models", model, settings)
     remembers = memory(ready.fitted)
-    off = {} if remembers.needed else without_hysteresis(built, ready.fitted)
+    off = {} if remembers.needed or remembers.ambiguous else without_hysteresis(built, ready.fitted)
     known = {**off, **(fixed or {})}
     full, bench = (
         Bench(Stack(built, records, tuple(effects), bounds, known), seed)

@@ -21,12 +21,16 @@ from numpy.typing import NDArray
 
 from hysteresis_bench.diagnosis import covariates
 from hysteresis_bench.diagnosis.memoryless import Law, Spline, View, lagged_laws, own_delays, views_of
+from hysteresis_bench.diagnosis.noise import noise
 from hysteresis_bench.signals import Record
 
 MATERIAL = 0.005
 """Explained RMS, as a share of the output's range, from which branches matter."""
 
 LEVEL = 0.01
+UNCLEAR = 2.0
+"""Times the noise that the best law may leave, if it is to say that no hysteresis is needed."""
+
 BLOCKS = 40
 """Blocks a record is cut into; every fifth is left out in turn."""
 
@@ -52,7 +56,8 @@ class Memory:
     explained : RMS that branches explain, as a share of the output's range
     law : the best law without branches, in words
     delays : delay of each record in that law, unit of time; 0 without a time base
-    ambiguous : one speed and amplitude only, and a lag explains the loop as well as branches do
+    ambiguous : one speed and amplitude only, and a lag explains the loop as well as branches do; or no law
+        explains the data, with branches or without
     """
 
     needed: bool
@@ -111,15 +116,21 @@ def memory(records: Sequence[Record]) -> Memory:
     if needed and lagged and not telling:
         lag = float(np.sqrt(np.mean(best(lagged)[0] ** 2)))
         ambiguous = bool(np.sqrt(max(lag**2 - rmse[2] ** 2, 0.0)) / span < MATERIAL)
-    words = _words(needed, p, explained, law.name, rmse[1] / span, ambiguous)
+    loud = float(np.sqrt(np.mean([noise(record).floor ** 2 for record in records])))
+    unclear = not needed and rmse[1] > max(UNCLEAR * loud, MATERIAL * span)
+    words = _words(needed, p, explained, law.name, rmse[1] / span, ambiguous, unclear)
+    ambiguous = ambiguous or unclear
     return Memory(needed, p, rmse[0], rmse[1], rmse[2], explained, law.name, law.delays, ambiguous, words)
 
 
-def _words(needed: bool, p: float, explained: float, law: str, left: float, ambiguous: bool) -> str:
+def _words(needed: bool, p: float, explained: float, law: str, left: float, ambiguous: bool, unclear: bool) -> str:
     without = f"the best law without memory ({law}) leaves {left:.2%} of the output's range"
     if needed:
         doubt = "; a long lag would draw the same loop: another speed or amplitude would tell" if ambiguous else ""
         return f"{without}; branches explain {explained:.2%} (p = {p:.2g}): hysteresis is needed{doubt}"
+    if unclear:
+        worse = "far more than the noise, and branches predict no better"
+        return f"{without}, {worse}: hysteresis cannot be judged while something else is missing"
     if p < LEVEL:
         return f"{without}; branches explain only {explained:.2%}: no hysteresis is needed"
     return f"{without}; branches predict no better (p = {p:.2g}): no hysteresis is needed"

@@ -46,6 +46,9 @@ there."""
 CONTENDERS, WITHIN = 4, 1.6
 """So many of the best, within this ratio of the least RMSE, are fitted again from other starts."""
 
+BETTER = 0.999
+"""Ratio of the RMSE from which another fit of the same system is a better one."""
+
 MOST = 5
 
 
@@ -74,11 +77,12 @@ class Selection:
     rounds: list[Round] = field(default_factory=list)
     known: dict[frozenset[str], Trial] = field(default_factory=dict)
     sought: set[frozenset[str]] = field(default_factory=set)
+    weighed: set[tuple[frozenset[str], str]] = field(default_factory=set)
 
     def run(self, base: Trial) -> Trial:
         """From the bare model to the last adopted effect."""
         current = base
-        visited = {current.names}
+        visited = {current.names: current.rmse}
         while True:
             found = self._round(current)
             self.rounds.append(found)
@@ -86,10 +90,10 @@ class Selection:
                 better = self._settle(self.bench.refitted(found.trials[found.chosen]))
             else:
                 better = self._exchanged(current) or current
-            if better.names in visited:
+            if better.rmse > BETTER * visited.get(better.names, np.inf):
                 return self._named(current)
             current = better
-            visited.add(current.names)
+            visited[current.names] = current.rmse
 
     def adopted(self, trial: Trial) -> tuple[str, ...]:
         return tuple(sorted(trial.names & set(self.candidates)))
@@ -99,7 +103,7 @@ class Selection:
         return self._sought(self._extensions(self.without(current, name), current))
 
     def without(self, trial: Trial, name: str) -> Trial:
-        return self._ask([("reduced", trial, name)], [trial.names - {name}])[0]
+        return self._reduced(trial, [name])[0]
 
     def with_each(self, trial: Trial, names: Sequence[str]) -> list[Trial]:
         return self._ask([("extended", trial, name) for name in names], [trial.names | {name} for name in names])
@@ -175,9 +179,7 @@ class Selection:
     def _named(self, current: Trial) -> Trial:
         """Without the effects that explain less than what is left beside them, the least telling first."""
         while names := self.adopted(current):
-            smaller = self._ask(
-                [("reduced", current, name) for name in names], [current.names - {name} for name in names]
-            )
+            smaller = self._reduced(current, names)
             least = min(smaller, key=lambda trial: self.share(trial, current))
             if self.share(least, current) > NAMED:
                 break
@@ -188,7 +190,7 @@ class Selection:
         names = self.adopted(current)
         if len(names) < 2:
             return None
-        smaller = self._ask([("reduced", current, name) for name in names], [current.names - {name} for name in names])
+        smaller = self._reduced(current, names)
         spare = [trial for trial in smaller if not self.needed(trial, current)]
         return min(spare, key=lambda trial: trial.cv_rmse) if spare else None
 
@@ -231,6 +233,25 @@ class Selection:
             self.sought.add(trial.names)
             trials = {**trials, name: trial}
         return trials
+
+    def _reduced(self, current: Trial, names: Sequence[str]) -> list[Trial]:
+        """Without one effect each. Fitted from here even where it is known: from here it may fit better than from
+        where it was first fitted."""
+        weighed = {name for name in names if (current.names, name) in self.weighed}
+        new = [name for name in names if name not in weighed or current.names - {name} not in self.known]
+        for name, trial in zip(new, self.crew.map([("reduced", current, name) for name in new]), strict=True):
+            self.weighed.add((current.names, name))
+            self._learn(trial)
+        return [self.known[current.names - {name}] for name in names]
+
+    def _learn(self, trial: Trial) -> None:
+        """Keep the better fit of a system, and forget what was built on a worse one."""
+        if trial.names in self.known and self.known[trial.names].rmse * BETTER < trial.rmse:
+            return
+        self.known[trial.names] = trial
+        for names in [names for names in self.known if names > trial.names]:
+            if self.known[names].rmse * BETTER > trial.rmse:
+                del self.known[names]
 
     def _ask(self, questions: Sequence[tuple], names: Sequence[frozenset[str]]) -> list[Trial]:
         """Only what is not known yet."""
