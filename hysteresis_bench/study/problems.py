@@ -15,7 +15,7 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, joined
-from hysteresis_bench.study.study_file import ProblemSpec
+from hysteresis_bench.study.study_file import ProblemSpec, Study
 
 SETTLING_REPEATS = 3
 """Repeats of a closed loop before it is scored."""
@@ -31,12 +31,7 @@ class Built:
 
 def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
     """folder : where relative data files are looked for. Raises UserError for what the data make impossible."""
-    dataset = measured(spec, seed) if spec.rig else _read(spec, folder)
-    if spec.skip is not None:
-        skip = spec.skip
-        dataset = dataset.map(lambda record: record.skip(skip))
-    if spec.settle:
-        dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
+    dataset = dataset_of(spec, seed, folder)
     system = build_system(spec.model, spec.settings, spec.effects, spec.fixed)
     faults = inapplicable(system, dataset) + [f"fixed {reason}" for reason in system.refusals()]
     boxes = system.box(dataset.fitted) if spec.box == "data" else system.parameters
@@ -44,6 +39,28 @@ def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
     if faults + more:
         raise UserError(f'problem "{spec.name}"', faults + more)
     return Built(Problem(system, dataset.fitted, Space(parameters), LOSSES[spec.loss]), dataset)
+
+
+def dataset_of(spec: ProblemSpec, seed: int, folder: Path) -> Dataset:
+    """What is fitted and what is held out, as the problem prepares it."""
+    dataset = measured(spec, seed) if spec.rig else _read(spec, folder)
+    if spec.skip is not None:
+        skip = spec.skip
+        dataset = dataset.map(lambda record: record.skip(skip))
+    if spec.settle:
+        dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
+    return dataset
+
+
+def closing_dataset(study: Study, folder: Path) -> Dataset:
+    """What the diagnosis of a study gets to see, and what it does not: `hidden`. Raises UserError for an unknown
+    record, ValueError where the study does not ask for a diagnosis."""
+    if study.closing is None:
+        raise ValueError("the study has no table [closing]")
+    after = study.closing.after or study.problem[0].name
+    spec = next(spec for spec in study.problem if spec.name == after)
+    changed = {"name": "closing", "fitted": study.closing.fitted, "held_out": study.closing.held_out}
+    return dataset_of(spec.model_copy(update=changed), study.seed, folder)
 
 
 def build_system(

@@ -9,10 +9,9 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PositiveInt, ValidationError, model_validator
 
-from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError, nearest
-from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.parameters import Scaling
+from hysteresis_bench.study.study_faults import content_faults
 
 SECONDS = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0}
 
@@ -104,6 +103,25 @@ class StageSpec(_Strict):
     control: list[str] = []
 
 
+class ClosingSpec(_Strict):
+    """How a study closes its loop: what a diagnosis gets to see once the trials are in.
+
+    model, settings : the bare model
+    after : the problem whose rig or data are this one's too; the study's first where none is named
+    fitted, held_out : experiments of the rig, or records of the data
+    effects : known to act, around the model from the beginning
+    says : what the paper itself says that its model lacks
+    """
+
+    model: str
+    settings: dict[str, Any] = {}
+    after: str | None = None
+    fitted: list[str] = Field(min_length=1)
+    held_out: list[str] = Field(min_length=1)
+    effects: list[str] = []
+    says: str = ""
+
+
 class Study(_Strict):
     """A checked study. `reference` is the optimizer that the others are compared with."""
 
@@ -118,6 +136,7 @@ class Study(_Strict):
     problem: list[ProblemSpec] = Field(min_length=1)
     optimizer: list[OptimizerSpec] = Field(min_length=1)
     stage: list[StageSpec] = []
+    closing: ClosingSpec | None = None
 
     @property
     def labels(self) -> list[str]:
@@ -128,7 +147,7 @@ class Study(_Strict):
 
     def identity(self) -> dict[str, Any]:
         """What makes it the same study: all but the trials, the optimizers, and what follows the trials."""
-        afterwards: dict[str, Any] = {"trials": True, "optimizer": True, "stage": True}
+        afterwards: dict[str, Any] = {"trials": True, "optimizer": True, "stage": True, "closing": True}
         return self.model_dump(mode="json", exclude=afterwards | {"problem": {"__all__": {"optimizers"}}})
 
 
@@ -149,22 +168,23 @@ def check_study(raw: dict[str, Any], where: str) -> Study:
     try:
         study = Study.model_validate(raw)
     except ValidationError as error:
-        raise UserError(where, [_sentence(fault) for fault in error.errors()] + _plugin_faults(raw)) from None
-    found = _plugin_faults(raw) + _doubles(study)
+        raise UserError(where, [_sentence(fault) for fault in error.errors()] + content_faults(raw)) from None
+    found = content_faults(raw) + _doubles(study)
     if found:
         raise UserError(where, found)
     return study
 
 
-def _place(location: tuple[int | str, ...]) -> str:
-    """("optimizer", 1, "settings") -> [[optimizer]] 2 settings."""
+def _words(location: tuple[int | str, ...]) -> list[str]:
+    """("optimizer", 1, "settings") -> [[optimizer]] 2, settings; ("closing", "fitted") -> [closing], fitted."""
     words: list[str] = []
     for index, part in enumerate(location):
         if isinstance(part, int):
             words[-1] = f"[[{words[-1]}]] {part + 1}" if index == 1 else f"{words[-1]} {part + 1}"
         else:
-            words.append(str(part))
-    return " ".join(words)
+            table = index == 0 and len(location) > 1 and isinstance(location[1], str)
+            words.append(f"[{part}]" if table else part)
+    return words
 
 
 def _sentence(fault: Any) -> str:
@@ -174,118 +194,14 @@ def _sentence(fault: Any) -> str:
             "problem": ProblemSpec,
             "optimizer": OptimizerSpec,
             "stage": StageSpec,
+            "closing": ClosingSpec,
         }
         owner = owners.get(str(location[0]), Study)
         known = owner.model_fields if len(location) > 1 or owner is Study else Study.model_fields
-        place = _place(location[:-1])
+        place = " ".join(_words(location)[:-1])
         return f'{place + ": " if place else ""}no key "{location[-1]}". {nearest(str(location[-1]), known)}'
     message = fault["msg"].removeprefix("Value error, ")
-    return f"{_place(location)}: {message[0].lower() + message[1:]}."
-
-
-def _plugin_faults(raw: dict[str, Any]) -> list[str]:
-    """Unknown plugins, settings, parameters and losses, wherever the file's form lets them be read."""
-    found = []
-    for number, spec in enumerate(_tables(raw, "optimizer"), 1):
-        if isinstance(spec.get("plugin"), str):
-            faults = registry.faults("optimizers", spec["plugin"], spec.get("settings", {}))
-            found += [f"[[optimizer]] {number}: {fault}" for fault in faults]
-    for number, spec in enumerate(_tables(raw, "problem"), 1):
-        found += [f"[[problem]] {number}: {fault}" for fault in _problem_faults(spec) + _label_faults(spec, raw)]
-    for number, spec in enumerate(_tables(raw, "stage"), 1):
-        found += [f"[[stage]] {number}: {fault}" for fault in _stage_faults(spec, raw)]
-    return found
-
-
-def _tables(raw: dict[str, Any], key: str) -> list[dict[str, Any]]:
-    value = raw.get(key, [])
-    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
-
-
-def _problem_faults(spec: dict[str, Any]) -> list[str]:
-    found = []
-    if isinstance(spec.get("model"), str):
-        faults = registry.faults("models", spec["model"], spec.get("settings", {}))
-        found += faults or _bound_faults(spec)
-    for effect in spec.get("effects", []):
-        found += registry.effect_faults(effect, str(spec.get("model")))
-    if isinstance(spec.get("rig"), str):
-        faults = registry.faults("rigs", spec["rig"], spec.get("rig_settings", {}))
-        found += faults
-        if not faults:
-            rig = registry.build("rigs", spec["rig"], spec.get("rig_settings", {}))
-            for key in ("fitted", "held_out"):
-                for experiment in spec.get(key, []):
-                    if experiment not in rig.experiments:
-                        known = nearest(str(experiment), rig.experiments)
-                        found.append(f'{key}: rig {spec["rig"]} has no experiment "{experiment}". {known}')
-    if spec.get("loss", "rmse") not in LOSSES:
-        found.append(f'no loss "{spec["loss"]}". {nearest(str(spec["loss"]), LOSSES)}')
-    return found
-
-
-def _listed(spec: dict[str, Any], key: str) -> list[str]:
-    value = spec.get(key, [])
-    return [str(entry) for entry in value] if isinstance(value, list) else []
-
-
-def _label_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
-    labels = [str(each.get("label") or each.get("plugin")) for each in _tables(raw, "optimizer")]
-    wanted = [label for label in _listed(spec, "optimizers") if label not in labels]
-    return [f'optimizers: no optimizer "{label}" in this study. {nearest(label, labels)}' for label in wanted]
-
-
-def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
-    problems = {str(each.get("name")): each for each in _tables(raw, "problem")}
-    found = _label_faults(spec, raw)
-    for key in ("after", "beside"):
-        if key in spec and spec[key] not in problems:
-            found.append(f'{key}: no problem "{spec[key]}". {nearest(str(spec[key]), problems)}')
-    for label in set(_listed(spec, "control")) - set(_listed(spec, "optimizers")):
-        found.append(f'control: "{label}" is not among the optimizers of this stage.')
-    if spec.get("control") and not problems.get(str(spec.get("after")), {}).get("rig"):
-        found.append(f'control: "{spec.get("after")}" has no rig to control.')
-    source = {key: value for key, value in problems.get(str(spec.get("after")), {}).items() if key.startswith("rig")}
-    found += _problem_faults(source | {"fitted": _listed(spec, "fitted"), "held_out": _listed(spec, "check")})
-    names, known = _parameter_names(spec), _parameter_names(problems.get(str(spec.get("after")), {}))
-    if not names:
-        return found + registry.faults("models", str(spec.get("model")), spec.get("settings", {}))
-    fit = _listed(spec, "fit")
-    found += [
-        f'fit: {spec["model"]} has no parameter "{name}". {nearest(name, names)}' for name in fit if name not in names
-    ]
-    if sorted(fit, key=[*names, *fit].index) != fit:
-        found.append(f"fit: name the parameters in the model's order: {', '.join(names)}.")
-    for name in names:
-        if known and name not in (*fit, *known):
-            found.append(f'{name} of {spec["model"]} is neither in fit nor found by "{spec["after"]}".')
-    return found
-
-
-def _parameter_names(spec: dict[str, Any]) -> list[str]:
-    """The parameters of a problem's or a stage's model; none where it cannot be built."""
-    model, settings = spec.get("model"), spec.get("settings", {})
-    if not isinstance(model, str) or registry.faults("models", model, settings):
-        return []
-    return [parameter.name for parameter in registry.build("models", model, settings).parameters]
-
-
-def _bound_faults(spec: dict[str, Any]) -> list[str]:
-    model = registry.build("models", spec["model"], spec.get("settings", {}))
-    parameters = {parameter.name: parameter for parameter in model.parameters}
-    found = []
-    for key in ("bounds", "fixed", "profile"):
-        values = spec.get(key, {})
-        for name in values if isinstance(values, (dict, list)) else ():
-            if name not in parameters and "." not in name:
-                found.append(f'{key}: {spec["model"]} has no parameter "{name}". {nearest(name, parameters)}')
-    for name, pair in spec.get("bounds", {}).items():
-        numbers = isinstance(pair, list) and len(pair) == 2 and all(isinstance(x, (int, float)) for x in pair)
-        if name in parameters and numbers:
-            scaling = spec.get("scaling") or parameters[name].scaling
-            if scaling in ("linear", "log"):
-                found += [f"bounds {fault}" for fault in parameters[name].within(*pair, scaling).faults()]
-    return found
+    return f"{' '.join(_words(location))}: {message[0].lower() + message[1:]}."
 
 
 def _doubles(study: Study) -> list[str]:
