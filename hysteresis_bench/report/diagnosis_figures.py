@@ -74,7 +74,7 @@ def waterfall(
 
 def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str) -> Picture:
     """Output over input of one record, measured, before and after side by side."""
-    rows = _fewer(rows)
+    rows = fewer(rows)
 
     def draw(figure: Any) -> None:
         for axes, which, colour in zip(
@@ -91,7 +91,7 @@ def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: st
 
 def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: Units, caption: str) -> Picture:
     """Measured minus simulated of one record, over time and over input, before and after; noise : RMS, shaded."""
-    rows = _fewer(rows)
+    rows = fewer(rows)
 
     def draw(figure: Any) -> None:
         panels = figure.subplots(1, 2, sharey=True, width_ratios=(1.7, 1))
@@ -131,6 +131,6 @@ def confusion(
     return picture(folder, name, size, "Confusion matrix; the table has the numbers.", caption, draw)
 
 
-def _fewer(rows: pd.DataFrame) -> pd.DataFrame:
+def fewer(rows: pd.DataFrame) -> pd.DataFrame:
     """Evenly spread rows, at most MOST."""
     return rows.iloc[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST)).astype(int))]

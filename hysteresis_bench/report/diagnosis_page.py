@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import hashlib
-import re
 from collections.abc import Sequence
 from pathlib import Path
 
 from hysteresis_bench.diagnosis.residual_tests import OVERALL, ResidualTest
 from hysteresis_bench.diagnosis.result import Candidate, Diagnosis
-from hysteresis_bench.report.diagnosis_figures import loops, residuals, waterfall
+from hysteresis_bench.report.before_after import errors_table, record_pictures, rmse_in, sentence
+from hysteresis_bench.report.diagnosis_figures import waterfall
 from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, percent, probability, render
 from hysteresis_bench.report.theme import Picture
 
@@ -67,7 +67,7 @@ def _warnings(diagnosis: Diagnosis) -> list[str]:
 
 def _answers(diagnosis: Diagnosis) -> list[str]:
     """What follows the verdict: memory, ties, the next experiment."""
-    told = [_sentence(diagnosis.memory.words)]
+    told = [sentence(diagnosis.memory.words)]
     if diagnosis.ties:
         rivals = {tie.effect: [t.rival for t in diagnosis.ties if t.effect == tie.effect] for tie in diagnosis.ties}
         parts = [f"{name} or, as well, {listed(others)}" for name, others in rivals.items()]
@@ -84,27 +84,13 @@ def _waterfall(folder: Path, diagnosis: Diagnosis) -> Picture:
 
 
 def _errors(diagnosis: Diagnosis) -> Table:
-    rows: list[list[str | Cell]] = []
-    for role in ("fitted", "held_out"):
-        before, after = getattr(diagnosis.before, role), getattr(diagnosis.after, role)
-        if before is None:
-            continue
-        ratio = before.rmse / after.rmse if after.rmse > 0 else float("inf")
-        for name, stage in (("before", before), ("after", after)):
-            rows.append(
-                [
-                    f"{role.replace('_', ' ')}, {name}",
-                    Cell(number(stage.rmse), "", name == "after"),
-                    percent(stage.relative_rms),
-                    percent(stage.max_error),
-                    NONE if name == "before" else number(ratio, 3, never=NONE),
-                    number(stage.rmse / diagnosis.floor, 3) if diagnosis.floor else NONE,
-                ]
-            )
-    header = ["Records", _rmse(diagnosis), "Relative RMS", "Largest error", "Times smaller", "Times the noise"]
+    before, after = (
+        {"fitted": stage.fitted.as_dict(), "held_out": stage.held_out.as_dict() if stage.held_out else None}
+        for stage in (diagnosis.before, diagnosis.after)
+    )
     offset = f" Both have the offset {diagnosis.offset}." if diagnosis.offset == "record-offset" else ""
-    note = f"Relative to the largest |output − offset| measured.{offset} {_sentence(diagnosis.noise.words)}"
-    return Table("Errors before and after", header, rows, note=note)
+    note = f"Relative to the largest |output − offset| measured.{offset} {sentence(diagnosis.noise.words)}"
+    return errors_table(before, after, diagnosis.floor, diagnosis.units, note)
 
 
 def _records(folder: Path, diagnosis: Diagnosis) -> list[tuple[str, Picture, Picture]]:
@@ -112,18 +98,10 @@ def _records(folder: Path, diagnosis: Diagnosis) -> list[tuple[str, Picture, Pic
     groups = list(diagnosis.responses.groupby("record", sort=False))
     groups.sort(key=lambda group: group[1]["role"].iloc[0] != "held-out")
     shown = [group for half in _both(groups) for group in half][:MOST]
-    found = []
-    for index, (record, rows) in enumerate(shown, 1):
-        heading = f"{record} ({rows['role'].iloc[0]})"
-        name = re.sub(r"[^A-Za-z0-9-]+", "-", f"{index}-{record}").strip("-")
-        found.append(
-            (
-                heading,
-                loops(folder, f"loop-{name}", rows, diagnosis.units, f"{heading}."),
-                residuals(folder, f"residual-{name}", rows, diagnosis.floor, diagnosis.units, f"{heading}."),
-            )
-        )
-    return found
+    return [
+        record_pictures(folder, str(index), rows, diagnosis.floor, diagnosis.units)
+        for index, (_, rows) in enumerate(shown, 1)
+    ]
 
 
 def _both(groups: list) -> tuple[list, list]:
@@ -137,7 +115,15 @@ def _candidates(diagnosis: Diagnosis) -> Table:
     rows = [_candidate(candidate, diagnosis) for candidate in diagnosis.candidates if candidate.applicable]
     return Table(
         "Effects considered",
-        ["Effect", "Verdict", f"{_rmse(diagnosis)}, blocks left out", "p", "Clear by", "Its parameters", "Tied with"],
+        [
+            "Effect",
+            "Verdict",
+            f"{rmse_in(diagnosis.units)}, blocks left out",
+            "p",
+            "Clear by",
+            "Its parameters",
+            "Tied with",
+        ],
         rows,
         note="An adopted effect is judged against the final model without it, any other against the final model with "
         "it. p of the nested-model test, before the correction for the number of candidates. Clear by: how many "
@@ -211,7 +197,7 @@ def _tests(diagnosis: Diagnosis, overall: bool) -> Table:
                 Cell(probability(first.corrected_p) if first else NONE, "bad" if first and first.significant else ""),
                 Cell(probability(test.corrected_p), "bad" if test.significant else ""),
                 Cell(percent(test.share, 2)),
-                Cell(_sentence(test.words), "prose"),
+                Cell(sentence(test.words), "prose"),
             ]
         )
     caption = "Is there structure in the residual?" if overall else "Record by record"
@@ -230,12 +216,3 @@ def _facts(diagnosis: Diagnosis, files: Sequence[Path]) -> list[tuple[str, str]]
     ]
     facts += [(f"SHA-256 of {file.name}", hashlib.sha256(file.read_bytes()).hexdigest()) for file in files]
     return facts + [(package, version) for package, version in diagnosis.model.created_by.items()]
-
-
-def _rmse(diagnosis: Diagnosis) -> str:
-    unit = diagnosis.units.get("output", "1")
-    return f"RMSE ({unit})" if unit != "1" else "RMSE"
-
-
-def _sentence(words: str) -> str:
-    return f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}"
