@@ -12,19 +12,25 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hysteresis_bench.combinations import listed
 from hysteresis_bench.compose import System
 from hysteresis_bench.signals import Record, Signal
 
 SAMPLES = 2000
 PER_CYCLE = 20
+SAME = 1e-3
+"""Times the noise below which two fitted systems are the same, whatever is measured."""
+
 TELLING = 3.0
 """Separation over noise from which one experiment settles the question."""
 
 
 @dataclass(frozen=True)
 class Advice:
-    """experiment : in words;  separation : RMS by which the closest of the tied systems differ there, unit of the
-    output;  noise : RMS of the noise, for comparison."""
+    """experiment : in words, empty where none helps
+    separation : RMS by which the closest of the tied systems differ there, unit of the output
+    noise : RMS of the noise, for comparison
+    """
 
     experiment: str
     separation: float
@@ -43,16 +49,19 @@ def advise(
 
     ours, rivals : systems with their values (dimension,), in units;  names : of the tied effects
     """
-    best, experiment = -1.0, ""
-    for words, signal in _catalogue(records):
-        try:
-            least = min(_apart(ours, rival, signal) for rival in rivals)
-        except ValueError:  # an effect that needs a column, such as the temperature, has no say in a new signal
-            return None
-        if np.isfinite(least) and least > best:
-            best, experiment = least, words
-    if best <= 0.0:
+    signals = list(_catalogue(records))
+    try:
+        apart = np.array([[_apart(ours, rival, signal) for rival in rivals] for _, signal in signals])
+    except ValueError:  # an effect that needs a column, such as the temperature, has no say in a new signal
         return None
+    apart = np.where(np.isfinite(apart), apart, 0.0)
+    different = np.max(apart, axis=0) > SAME * noise
+    first, others = names[0], np.array(names[1:])
+    alike = f"No feasible signal tells {listed([first, *others[~different]])} apart: for this model they are the same."
+    if not different.any():
+        return Advice("", float(apart.max()), noise, alike)
+    least = np.min(apart[:, different], axis=1)
+    best, experiment = float(least.max()), signals[int(np.argmax(least))][0]
     ratio = best / noise if noise > 0 else np.inf
     hope = (
         "that settles it"
@@ -63,10 +72,10 @@ def advise(
     )
     unit = records[0].units.get("output", "1")
     words = (
-        f"To tell {' and '.join(names)} apart, measure {experiment}: the fitted models differ there by "
+        f"To tell {listed([first, *others[different]])} apart, measure {experiment}: the fitted models differ there by "
         f"{best:.3g}{'' if unit == '1' else ' ' + unit} RMS, {ratio:.2g} times the noise; {hope}."
     )
-    return Advice(experiment, best, noise, words)
+    return Advice(experiment, best, noise, words if different.all() else f"{words} {alike}")
 
 
 def _apart(ours: tuple[System, NDArray], rival: tuple[System, NDArray], signal: Signal) -> float:

@@ -130,7 +130,7 @@ def diagnose(
     verdict: Verdict = "effect-found" if adopted else "no-effect-needed"
     if remains or alone or not carries_over(before, after):
         verdict = "unexplained-residual"
-    told = warnings(built, ready.fitted, final, alone, loud.floor < floor, ties)
+    told = warnings(built, ready.fitted, final, alone, floor, loud.floor, ties)
     if not carries_over(before, after):
         told = ("What was adopted does not carry over to the held-out records: do not believe the names.", *told)
     return Diagnosis(

@@ -94,6 +94,7 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
         "cv_rmse": candidate.cv_rmse,
         "p_value": candidate.p,
         "advantage": candidate.advantage,
+        "share": candidate.share,
         "parameters": dict(candidate.parameters or {}),
         "at_bound": list(candidate.at_bound),
         "tied_with": list(candidate.tied_with),

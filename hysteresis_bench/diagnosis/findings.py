@@ -57,6 +57,7 @@ def candidate_rows(
                 cv_rmse=larger.cv_rmse,
                 p=test.p,
                 advantage=gain,
+                share=float(np.clip(selection.share(smaller, larger), 0.0, 1.0)),
                 parameters={
                     key.removeprefix(f"{name}."): value
                     for key, value in larger.values.items()
@@ -77,7 +78,16 @@ def description_row(equation: Equation, before: Stage) -> Candidate:
     left_out = before.fitted.rmse * float(np.sqrt(max(1.0 - equation.share, 0.0)))
     coefficients = {part.term.symbol: part.coefficient for part in equation.terms}
     worst = max(part.p for part in equation.terms)
-    return Candidate(NAME, True, adopted=True, rmse=left_out, cv_rmse=left_out, p=worst, parameters=coefficients)
+    return Candidate(
+        NAME,
+        True,
+        adopted=True,
+        rmse=left_out,
+        cv_rmse=left_out,
+        p=worst,
+        share=equation.share,
+        parameters=coefficients,
+    )
 
 
 def waterfall_of(selection: Selection, base: Trial, found: Trial) -> tuple[tuple[str, float], ...]:

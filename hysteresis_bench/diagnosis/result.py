@@ -42,6 +42,7 @@ class Candidate:
     """An effect that was considered, on top of the final system; an adopted one, against the system without it.
 
     p : of the nested-model test, not corrected;  advantage : standard errors by which it won on blocks left out
+    share : of the mean square left over the noise without it, what it explains
     cv_rmse : NaN where it is not applicable, for the `reason`;  parameters : its own, in units
     """
 
@@ -56,6 +57,7 @@ class Candidate:
     parameters: Mapping[str, float] | None = None
     at_bound: tuple[str, ...] = ()
     tied_with: tuple[str, ...] = ()
+    share: float = float("nan")
 
 
 @dataclass(frozen=True)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from hysteresis_bench.combinations import listed
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.noise import Noise
 from hysteresis_bench.diagnosis.result import Stage, Verdict
 from hysteresis_bench.diagnosis.ties import Tie
 from hysteresis_bench.diagnosis.trials import Trial
 from hysteresis_bench.signals import Record
+
+WRONG = 2.0
+"""Times the noise that the final system may leave before its names are doubted."""
 
 
 def headline(
@@ -51,10 +55,15 @@ def carries_over(before: Stage, after: Stage) -> bool:
 
 
 def warnings(
-    model: Model, records: Sequence[Record], final: Trial, alone: bool, quiet: bool, ties: Sequence[Tie]
+    model: Model, records: Sequence[Record], final: Trial, alone: bool, floor: float, noise: float, ties: Sequence[Tie]
 ) -> tuple[str, ...]:
-    """What a user must know before believing the names."""
+    """What a user must know before believing the names. floor : RMS from which anything is judged"""
     told = list(model.advice(records)) if not final.names & {"bias", "record-offset"} else []
+    if final.rmse > WRONG * floor and not alone:
+        told.append(
+            f"The final system still leaves {final.rmse / floor:.2g} times the noise: the model's own law does not "
+            "follow these data, and what is named may stand in for that."
+        )
     if alone:
         told.append("The output does not follow the input; whatever would fit it is no diagnosis.")
     for name in final.at_bound:
@@ -65,13 +74,8 @@ def warnings(
         told.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
         )
-    if quiet:
+    if noise < floor:
         told.append("The data have next to no noise; below a few parts in ten thousand of the range nothing is judged.")
     for one in ties:
         told.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")
     return tuple(told)
-
-
-def listed(names: Sequence[str]) -> str:
-    """a, b and c"""
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -6,8 +6,10 @@ import hashlib
 from collections.abc import Sequence
 from pathlib import Path
 
+from hysteresis_bench.diagnosis.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.residual_tests import OVERALL, ResidualTest
 from hysteresis_bench.diagnosis.result import Candidate, Diagnosis
+from hysteresis_bench.diagnosis.selection import LEVEL
 from hysteresis_bench.report.before_after import errors_table, record_pictures, rmse_in, sentence
 from hysteresis_bench.report.diagnosis_figures import waterfall
 from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, percent, probability, render
@@ -121,13 +123,16 @@ def _candidates(diagnosis: Diagnosis) -> Table:
             f"{rmse_in(diagnosis.units)}, blocks left out",
             "p",
             "Clear by",
+            "Explains",
             "Its parameters",
             "Tied with",
         ],
         rows,
         note="An adopted effect is judged against the final model without it, any other against the final model with "
         "it. p of the nested-model test, before the correction for the number of candidates. Clear by: how many "
-        "standard errors it wins on blocks of samples that were left out of the fit.",
+        "standard errors it wins on blocks of samples that were left out of the fit. Explains: its share of the mean "
+        "square over the noise that is left without it; what explains less than half is not named, as it may be a part "
+        "of what is wrong for another reason.",
     )
 
 
@@ -136,6 +141,8 @@ def _candidate(candidate: Candidate, diagnosis: Diagnosis) -> list[str | Cell]:
         verdict = Cell("adopted", "good", strong=True)
     elif candidate.tied_with:
         verdict = Cell("tied", "bad")
+    elif candidate.p < LEVEL and candidate.advantage > CLEAR:
+        verdict = Cell("too small a part", "quiet")
     else:
         verdict = Cell("not needed", "quiet")
     values = [
@@ -148,6 +155,7 @@ def _candidate(candidate: Candidate, diagnosis: Diagnosis) -> list[str | Cell]:
         number(candidate.cv_rmse),
         probability(candidate.p),
         number(candidate.advantage, 2),
+        percent(candidate.share),
         Cell(", ".join(values) or NONE, "prose"),
         listed(candidate.tied_with) if candidate.tied_with else NONE,
     ]
