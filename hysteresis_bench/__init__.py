@@ -69,8 +69,9 @@ def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
 
 def run_study(path: Path | str, **options: Any) -> Results:
     """Run or continue a study and read its results; see hysteresis_bench.study.run.run_study for the options."""
+    from hysteresis_bench.commands.closing import close_the_loop
     from hysteresis_bench.control.comparison import scores_on_rig
     from hysteresis_bench.study.results import read_results
     from hysteresis_bench.study.run import run_study as run
 
-    return read_results(run(path, closed_loop=scores_on_rig, **options))
+    return read_results(run(path, closed_loop=scores_on_rig, closing=close_the_loop, **options))

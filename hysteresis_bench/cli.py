@@ -65,6 +65,7 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
     from hysteresis_bench.diagnosis.study import is_diagnosis_study
     from hysteresis_bench.progress import progress_bar
     from hysteresis_bench.report import write_report
+    from hysteresis_bench.report.closing_section import closing_in_words
     from hysteresis_bench.report.console import print_summary
     from hysteresis_bench.report.published import check_published_beside
     from hysteresis_bench.study.results import FINISHED
@@ -85,8 +86,11 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
         console.print(
             f"{row.problem} · {row.optimizer} · trial {row.trial}: {row.status}: {row.reason}", highlight=False
         )
+    if results.closing:
+        console.print(closing_in_words(results.closing), highlight=False, markup=False)
     _say_path(console, "report", page)
-    sys.exit(FAILED_TRIALS if len(failed) else DONE)
+    unfinished = len(failed) or (results.closing and not results.closing.finished)
+    sys.exit(FAILED_TRIALS if unfinished else DONE)
 
 
 def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console) -> int:

@@ -41,6 +41,8 @@ def progress_bar(console: Console) -> Iterator[Callable[[Step], None]]:
             parts = [f"{problem}: {100 * rms:.2f} % {name}" for problem, (rms, name) in sorted(best.items())]
             parts += [f"[red]{failed} failed[/]"] if failed else []
             description = ("best " if best else "") + " · ".join(parts)
+            if step.done == step.total:
+                description += " · now what follows the trials"
             bar.update(task, completed=step.done, total=step.total, description=description)
 
         yield tell

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -56,6 +56,12 @@ def record_pictures(
         loops(folder, f"loop-{name}", rows, units, f"{heading}."),
         residuals(folder, f"residual-{name}", rows, noise, units, f"{heading}."),
     )
+
+
+def besides_ties(warnings: Sequence[str], ties: Iterable[tuple[str, str]]) -> list[str]:
+    """Warnings without those that only say what a list of ties says; ties : effect and rival."""
+    told = tuple(f"{effect} and {rival} cannot" for effect, rival in ties)
+    return [warning for warning in warnings if not (told and warning.startswith(told))]
 
 
 def rmse_in(units: Units) -> str:

@@ -10,7 +10,7 @@ from hysteresis_bench.diagnosis.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.residual_tests import OVERALL, ResidualTest
 from hysteresis_bench.diagnosis.result import Candidate, Diagnosis
 from hysteresis_bench.diagnosis.selection import LEVEL
-from hysteresis_bench.report.before_after import errors_table, record_pictures, rmse_in, sentence
+from hysteresis_bench.report.before_after import besides_ties, errors_table, record_pictures, rmse_in, sentence
 from hysteresis_bench.report.diagnosis_figures import waterfall
 from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, percent, probability, render
 from hysteresis_bench.report.theme import Picture
@@ -33,7 +33,7 @@ def write_diagnosis_page(folder: Path, diagnosis: Diagnosis, files: Sequence[Pat
         title=_title(diagnosis),
         kicker=f"Diagnosis of {listed([file.stem for file in files] or list(diagnosis.split['fitted']))}",
         answer=[diagnosis.headline, *_answers(diagnosis)],
-        warnings=_warnings(diagnosis),
+        warnings=besides_ties(diagnosis.warnings, [(tie.effect, tie.rival) for tie in diagnosis.ties]),
         waterfall=_waterfall(folder, diagnosis),
         errors=_errors(diagnosis),
         records=_records(folder, diagnosis),
@@ -59,12 +59,6 @@ def _title(diagnosis: Diagnosis) -> str:
         more = ", and something without a name" if unexplained else ""
         return f"{model} lacks {listed(diagnosis.effects)}{more}"
     return f"{model} leaves something that no effect explains" if unexplained else f"{model} lacks nothing known here"
-
-
-def _warnings(diagnosis: Diagnosis) -> list[str]:
-    """Without what the list of ties says."""
-    told = tuple(f"{tie.effect} and {tie.rival} cannot" for tie in diagnosis.ties)
-    return [warning for warning in diagnosis.warnings if not warning.startswith(told)]
 
 
 def _answers(diagnosis: Diagnosis) -> list[str]:

@@ -13,6 +13,7 @@ from hysteresis_bench import stats
 from hysteresis_bench.report import beside, claims, tables, words
 from hysteresis_bench.report.audit import Finding, audit
 from hysteresis_bench.report.by_record import by_record, measured_loops
+from hysteresis_bench.report.closing_section import closing_in_words, closing_view
 from hysteresis_bench.report.determined import determined
 from hysteresis_bench.report.figures import FLOOR, Look, all_trials, choose, convergence, runtime
 from hysteresis_bench.report.page import Cell, Table, listed, render, whole
@@ -37,6 +38,7 @@ HEADINGS = (
     ("stages", "The linear section, and the whole model"),
     ("determined", "What the data determine"),
     ("audit", "Paper audit"),
+    ("closing", "Closing the loop"),
     ("decisions", "What was left open, and decided"),
     ("definitions", "Definitions, and where every number comes from"),
 )
@@ -100,7 +102,8 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
     context: dict[str, Any] = {
         "title": results.study.title,
         "kicker": "hysteresis-bench study",
-        "answer": words.answer(here, summary, judged),
+        "answer": words.answer(here, summary, judged)
+        + ([closing_in_words(results.closing)] if results.closing else []),
         "run": words.run_in_words(results.trials, here),
         "failures": tables.failures(results),
         "facts": facts(results),
@@ -128,6 +131,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> str:
         "determined": determined(results, folder),
         "audit": tables.audit(findings) if findings else None,
         "audited": audited(findings),
+        "closing": closing_view(results, folder),
         "decisions": decisions if published.decision else None,
         "notes": results.study.notes,
         "definitions": DEFINITIONS,

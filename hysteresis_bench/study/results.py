@@ -13,6 +13,7 @@ import pandas as pd
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.objective import Trace
+from hysteresis_bench.study.closing_files import Closing, read_closing
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import Study, check_study
 
@@ -39,6 +40,7 @@ class Results:
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
+    closing : the diagnosis at the end; None where the study asks for none, or none was tried
     """
 
     folder: Path
@@ -50,6 +52,7 @@ class Results:
     responses: pd.DataFrame
     identifiability: Mapping[str, Any]
     stages: pd.DataFrame
+    closing: Closing | None = None
 
 
 def read_results(folder: Path) -> Results:
@@ -70,6 +73,7 @@ def read_results(folder: Path) -> Results:
         _csv(folder / RESPONSES),
         _json(folder / IDENTIFIABILITY),
         _csv(folder / STAGES),
+        read_closing(folder) if study.closing else None,
     )
 
 

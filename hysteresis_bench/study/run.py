@@ -22,7 +22,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.identify import seed_of
 from hysteresis_bench.study.afterwards import identifiability, responses
 from hysteresis_bench.study.pool import run_tickets
-from hysteresis_bench.study.problems import build_problem
+from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STAGES, STUDY, TRIALS
 from hysteresis_bench.study.stages import ClosedLoop, run_stages
 from hysteresis_bench.study.store import Outcome, Store
@@ -30,6 +30,9 @@ from hysteresis_bench.study.study_file import Study, check_study, read_study
 from hysteresis_bench.study.trial import Ticket, run_trial, seed_key
 
 LOCK = ".lock"
+Closing = Callable[[Study, Path, Path], None]
+"""(study, folder of its data, results folder): the diagnosis at the end; it comes from the floor above."""
+
 PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "matplotlib", "pebble")
 
 
@@ -49,17 +52,21 @@ def run_study(
     out: Path | str | None = None,
     tell: Callable[[Progress], None] = lambda progress: None,
     closed_loop: ClosedLoop | None = None,
+    closing: Closing | None = None,
 ) -> Path:
     """Run every trial of a study that is not in its results folder yet; returns that folder.
 
     trials : overrides the file's number; jobs : worker processes, all cores by default;
     out : the results folder, see default_folder;  closed_loop : for studies with stages that ask for control
+    closing : for studies with a table [closing]
     Raises UserError for a fault in the file, the data, or the folder.
     """
     path = Path(path)
     study, text = read_study(path)
     folder = Path(out) if out else default_folder(path)
     built = {spec.name: build_problem(spec, study.seed, path.parent) for spec in study.problem}
+    if study.closing:
+        closing_dataset(study, path.parent)  # its faults are told before the trials, not after them
     folder.mkdir(parents=True, exist_ok=True)
     with _alone(folder):
         units = {name: dict(one.dataset.units) for name, one in built.items()}
@@ -76,6 +83,9 @@ def run_study(
     pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
     told = json.dumps(identifiability(study, table, traces, built), indent=1, allow_nan=False)
     (folder / IDENTIFIABILITY).write_text(told + "\n", encoding="utf-8")
+    if study.closing and closing:
+        with _alone(folder):
+            closing(study, path.parent, folder)
     return folder
 
 

@@ -3,6 +3,7 @@
 import pytest
 
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.problems import closing_dataset
 from hysteresis_bench.study.study_file import duration, read_study
 
 GOOD = """
@@ -98,3 +99,76 @@ settings = { particels = 10 }
 )
 def test_single_faults(tmp_path, change, part):
     assert part in " ".join(told(tmp_path, GOOD.replace(*change)))
+
+
+CLOSING = """
+title = "t"
+seed = 1
+[[problem]]
+name = "p"
+model = "jiles-atherton"
+rig = "sma"
+fitted = ["pwm-60s"]
+[[optimizer]]
+plugin = "pso"
+[closing]
+model = "jiles-atherton"
+fitted = ["pwm-60s"]
+held_out = ["pwm-50s"]
+"""
+
+
+def test_a_closing_takes_the_rig_of_its_problem_and_makes_no_other_study(tmp_path):
+    study = read(tmp_path, CLOSING)
+    assert study.closing.fitted == ["pwm-60s"]
+    assert closing_dataset(study, tmp_path).held_out[0].name == "pwm-50s"
+    assert read(tmp_path, CLOSING[: CLOSING.index("[closing]")]).identity() == study.identity()
+
+
+def test_all_faults_of_a_closing_at_once(tmp_path):
+    text = (
+        CLOSING[: CLOSING.index("[closing]")]
+        + """
+[closing]
+model = "jiles-athertn"
+after = "q"
+fited = ["pwm-60s"]
+held_out = ["pwm-50", "slow", "slow"]
+effects = ["input-lga"]
+says = 3
+"""
+    )
+    faults = " ".join(told(tmp_path, text.replace('after = "q"', "")))
+    for part in (
+        '[closing]: no key "fited". Known:',
+        'Did you mean "fitted"',
+        "[closing] fitted: field required",
+        "[closing] says: input should be a valid string",
+        '[closing]: no model "jiles-athertn"',
+        'no effect "input-lga"',
+        'held_out: rig sma has no experiment "pwm-50". Known:',
+        '[closing]: "slow" is named twice',
+    ):
+        assert part in faults, part
+    assert '[closing]: after: no problem "q". Known: p.' in " ".join(told(tmp_path, text))
+
+
+@pytest.mark.parametrize(
+    ("change", "part"),
+    [
+        (('held_out = ["pwm-50s"]', "held_out = []"), "[closing] held_out: list should have at least 1 item"),
+        (('held_out = ["pwm-50s"]', 'held_out = "pwm-50s"'), "[closing] held_out: input should be a valid list"),
+        (('held_out = ["pwm-50s"]', 'held_out = ["pwm-60s"]'), "what is held out must not be fitted"),
+        (('rig = "sma"', 'rig = "smaa"'), 'no rig "smaa"'),
+        (("[closing]\n", "[closing]\nsettings = { clampd = true }\n"), "[closing]: jiles-atherton has no setting"),
+    ],
+)
+def test_single_faults_of_a_closing(tmp_path, change, part):
+    faults = told(tmp_path, CLOSING.replace(*change))
+    assert part in " ".join(faults)
+    assert len(faults) == len(set(faults))
+
+
+def test_a_closing_that_is_no_table(tmp_path):
+    text = CLOSING[: CLOSING.index("[closing]")].replace("seed = 1", 'seed = 1\nclosing = "yes"')
+    assert any(fault.startswith("closing: ") for fault in told(tmp_path, text))
