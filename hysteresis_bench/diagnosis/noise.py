@@ -31,6 +31,13 @@ LAGS = (1, 2, 4)
 CLIP = 3.0
 """Differences beyond so many times the noise are no noise but a kink."""
 
+MISSED = 0.1
+"""Of the arc between two samples, what a model of the samples gets wrong: it sees no reversal at its very peak."""
+
+ARITHMETIC = 1e-10
+"""Share of the largest value below which it is no noise but how a computed signal was rounded: the sine of a large
+phase has lost some digits."""
+
 COLOURED = 1.2
 """Repeats that differ by so many times the fast noise make the noise coloured."""
 
@@ -126,6 +133,17 @@ def pooled_noise(records: Sequence[Record]) -> Noise:
     )
 
 
+def unresolved(records: Sequence[Record]) -> float:
+    """What the samples miss of the input between them, as an error of the output (RMS, unit of the output): MISSED
+    times the sag of a typical arc between two samples, by the ratio of the ranges."""
+    sags = []
+    for record in records:
+        u = record.input
+        sag = float(np.median(np.abs(u[2:] - 2.0 * u[1:-1] + u[:-2]))) / 8.0 if u.size > 2 else 0.0
+        sags.append(sag * float(np.ptp(record.measured)) / (float(np.ptp(u)) or 1.0))
+    return MISSED * float(np.sqrt(np.mean(np.square(sags))))
+
+
 def fast_noise(time: NDArray, values: NDArray, lag: int = 1) -> tuple[float, float]:
     """RMS of the sample-to-sample noise and its standard error, unit of the values; (0, 0) of a constant.
 
@@ -138,8 +156,8 @@ def fast_noise(time: NDArray, values: NDArray, lag: int = 1) -> tuple[float, flo
     estimates, errors = np.array([_of_order(time, values, order, lag) for order in orders]).T
     limit = np.min(estimates + errors)
     chosen = int(np.argmax(estimates <= limit))
-    rounding = 4.0 * np.finfo(float).eps * float(np.max(np.abs(values)))
-    return (float(estimates[chosen]), float(errors[chosen])) if estimates[chosen] > rounding else (0.0, 0.0)
+    arithmetic = ARITHMETIC * float(np.max(np.abs(values)))
+    return (float(estimates[chosen]), float(errors[chosen])) if estimates[chosen] > arithmetic else (0.0, 0.0)
 
 
 def _of_order(time: NDArray, values: NDArray, order: int, lag: int) -> tuple[float, float]:

@@ -101,6 +101,15 @@ def test_noise_of_the_input_reaches_the_output_through_the_slope() -> None:
     assert found.floor == pytest.approx(0.06, rel=0.1)
 
 
+def test_a_command_of_many_cycles_has_no_noise_of_its_own() -> None:
+    time = np.arange(6000) * 2e-4
+    u = 2.5 * np.sin(2 * np.pi * 50.0 * time)  # samples lie evenly about every turning point: no slope is clear there
+    y = np.sin(2 * np.pi * 50.0 * time - 0.7) + 0.003 * np.random.default_rng(5).standard_normal(time.size)
+    found = noise(Record(time, u, y))
+    assert found.input_rms == found.through_input == 0.0
+    assert found.floor == pytest.approx(0.003, rel=0.05)
+
+
 def test_repeats_need_a_period_that_comes_back() -> None:
     assert period(INPUTS["sine, 200 samples a period"]) == 200
     assert period(INPUTS["sweep"]) is None
