@@ -85,9 +85,10 @@ def asked_for(study: Study) -> dict[str, Any]:
 
 
 def hidden_names(dataset: Dataset) -> list[str]:
-    """The effects that a rig is built with, as it names them; none of measurements."""
+    """What a rig is built with, as it names it, with its own words where it has some; nothing of measurements."""
     hidden: Mapping[str, Any] = dataset.hidden
-    return [name.replace("_", "-") for name, value in hidden.items() if value and name not in NO_EFFECTS]
+    effects = {name.replace("_", "-"): value for name, value in hidden.items() if value and name not in NO_EFFECTS}
+    return [f"{name} ({value})" if isinstance(value, str) else name for name, value in effects.items()]
 
 
 def run_closing(ticket: ClosingTicket) -> Ended:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from hysteresis_bench.diagnosis.terms import Equation
 from hysteresis_bench.report.before_after import besides_ties, errors_table, record_pictures, sentence
 from hysteresis_bench.report.diagnosis_figures import waterfall
 from hysteresis_bench.report.page import Table, listed
@@ -13,6 +14,9 @@ from hysteresis_bench.report.theme import Picture
 from hysteresis_bench.study.closing_files import Closing
 from hysteresis_bench.study.results import Results
 from hysteresis_bench.study.study_file import ClosingSpec
+
+NOTHING = Equation((), 0.0)
+"""As diagnosis.json tells of a residual that no terms describe."""
 
 PLACE = "closing"
 """What the names of the section's figures begin with."""
@@ -65,7 +69,7 @@ def closing_view(results: Results, folder: Path) -> ClosingView | None:
         [record_pictures(folder, f"{PLACE}-{i}", rows, noise, units) for i, rows in enumerate(groups, 1)],
         [f"{tie['effect']} and {tie['rival']}: {tie['reason']}." for tie in told["ties"]],
         besides_ties(told["warnings"], [(tie["effect"], tie["rival"]) for tie in told["ties"]]),
-        told["unexplained"] or "",
+        "" if told["unexplained"] in (None, str(NOTHING)) else told["unexplained"],
         told["advice"] or "",
         closing.page,
     )

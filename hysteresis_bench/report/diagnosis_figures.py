@@ -101,6 +101,7 @@ def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: 
             for which, colour in (("before", BEFORE), ("after", AFTER)):
                 axes.plot(rows[along], rows["output"] - rows[which], color=colour, linewidth=0.8, label=which)
             axes.set_xlabel(named(label, units, along))
+            axes.locator_params(axis="x", nbins=5)
         panels[0].set_ylabel(named("Residual", units, "output"))
         panels[0].legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0, handlelength=1.4)
 
