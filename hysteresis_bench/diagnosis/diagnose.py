@@ -27,7 +27,7 @@ from hysteresis_bench.diagnosis.findings import (
 )
 from hysteresis_bench.diagnosis.fit_system import split
 from hysteresis_bench.diagnosis.memory import memory
-from hysteresis_bench.diagnosis.noise import noise, pooled_noise
+from hysteresis_bench.diagnosis.noise import Noise, noise, pooled_noise, unresolved
 from hysteresis_bench.diagnosis.preparation import SETTLED, thinned, with_held_out
 from hysteresis_bench.diagnosis.residual_tests import residual_tests
 from hysteresis_bench.diagnosis.result import Diagnosis, Stage, Verdict
@@ -45,7 +45,7 @@ from hysteresis_bench.model_file import FittedModel, Preparation
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.signals import Dataset, Record
 
-FINEST = 2e-4
+FINEST = 5e-4
 """Share of the output's range below which an error is rounding and numerics, whatever the noise."""
 
 FOLLOWS = 0.5
@@ -58,6 +58,10 @@ TELLING = 0.03
 """Share of the residual's variance from which a dependence matters."""
 
 FEWEST_SAMPLES = 20
+
+HUM = "periodic-disturbance"
+QUIETER = 0.9
+"""The noise without a hum that was found, over that with it, from which the search goes on with the new estimate."""
 
 
 def diagnose(
@@ -96,13 +100,17 @@ def diagnose(
         for records in (ready.fitted, thinned(ready.fitted))
     )
     loud = pooled_noise(ready.fitted)
-    span = max(float(np.ptp(record.measured)) for record in ready.fitted)
-    floor = max(loud.floor, FINEST * span)
+    floor = _floor(ready.fitted, loud)
     possible, impossible = bench.stack.candidates()
     with Crew(bench, jobs or min(4, os.cpu_count() or 1)) as crew:
         selection = Selection(bench, crew, floor, possible)
         base = bench.bare(frozenset({"record-offset"}))
         found = selection.run(base)
+        quieter = pooled_noise(_without_hum(full, found))
+        if quieter.floor < QUIETER * loud.floor:  # a fast hum had passed for noise
+            loud, floor = quieter, _floor(ready.fitted, quieter)
+            selection.floor = floor
+            found = selection.run(found)
         alone = not _follows(full.stack, found)
         found = base if alone else found
         final = with_simplest_offset(selection, found)
@@ -114,8 +122,12 @@ def diagnose(
     nuisance = frozenset({"record-offset"} & final.names)
     whole, thin = (replace(one, stack=replace(one.stack, fixed=fixed)) for one in (full, bench))
     adopted = (*(label for label, _ in waterfall[1:]), *(["bias"] if offset == "bias" else []))
-    before = _stage(whole, thin.bare(nuisance), ready)
-    after = before if final.names == nuisance else _stage(full, final, ready)
+    bare = thin.bare(nuisance)
+    if final.names == nuisance and final.rmse < bare.rmse:
+        before = after = _stage(full, final, ready)
+    else:
+        before = _stage(whole, bare, ready)
+        after = before if final.names == nuisance else _stage(full, final, ready)
     waterfall = (
         (f"{model} alone", before.fitted.rmse),
         *waterfall[1:-1],
@@ -136,7 +148,7 @@ def diagnose(
     return Diagnosis(
         model,
         verdict,
-        headline(verdict, adopted, alone, before, after, loud, ties, dataset.units),
+        headline(verdict, adopted, alone, before, after, loud, floor, ties, dataset.units),
         adopted,
         offset,
         before,
@@ -171,6 +183,28 @@ def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: S
             )
     if faults:
         raise UserError("diagnose", faults)
+
+
+def _floor(records: Sequence[Record], noise: Noise) -> float:
+    """RMS below which nothing is judged: noise, what lies between the samples, rounding."""
+    span = max(float(np.ptp(record.measured)) for record in records)
+    return max(float(np.hypot(noise.floor, unresolved(records))), FINEST * span)
+
+
+def _without_hum(bench: Bench, trial: Trial) -> tuple[Record, ...]:
+    """The records without the periodic disturbance that was found."""
+    if HUM not in trial.names:
+        return bench.stack.records
+    problem = bench.stack.problem(trial.names)
+    silent = {f"{HUM}.{p.name}": p.null for p in bench.stack.effect(HUM).parameters if p.null is not None}
+    both = np.array(
+        [[trial.values[name], silent.get(name, trial.values[name])] for name in problem.space.names], dtype=float
+    )
+    quiet = []
+    for record in bench.stack.records:
+        heard, unheard = problem.system.simulate(record.signal, both).T
+        quiet.append(replace(record, output=record.output - (heard - unheard)))
+    return tuple(quiet)
 
 
 def _follows(stack: Stack, trial: Trial) -> bool:

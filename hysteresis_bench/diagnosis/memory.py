@@ -53,7 +53,7 @@ class Memory:
 
     p : that branches predict no better than the best law without memory
     static_rmse, dynamic_rmse, branch_rmse : on samples not fitted, unit of the output
-    explained : RMS that branches explain, as a share of the output's range
+    explained : RMS that branches explain, as a share of the output's range (without each record's drift)
     law : the best law without branches, in words
     delays : delay of each record in that law, unit of time; 0 without a time base
     ambiguous : one speed and amplitude only, and a lag explains the loop as well as branches do; or no law
@@ -81,7 +81,10 @@ def memory(records: Sequence[Record]) -> Memory:
     if span == 0.0 or np.ptp(np.concatenate([view.u for view in views])) == 0.0:
         return Memory(False, 1.0, 0.0, 0.0, 0.0, 0.0, "constant", still, False, "a constant needs no hysteresis")
     folds, blocks = _blocks(views)
-    own, spline = _own(views), Spline([view.u[view.keep] for view in views])
+    own = _own(views)
+    level = y - own @ np.linalg.lstsq(own, y, rcond=None)[0]  # a drift is no part of what hysteresis is measured by
+    span = max(float(np.ptp(part)) for part in np.split(level, np.cumsum([view.y.size for view in views])[:-1]))
+    spline = Spline([view.u[view.keep] for view in views])
     curve = np.vstack(spline.of(views, [view.u for view in views]))
 
     def errors(law: Law) -> NDArray:

@@ -31,7 +31,7 @@ LAGS = (1, 2, 4)
 CLIP = 3.0
 """Differences beyond so many times the noise are no noise but a kink."""
 
-MISSED = 0.1
+MISSED = 0.25
 """Of the arc between two samples, what a model of the samples gets wrong: it sees no reversal at its very peak."""
 
 ARITHMETIC = 1e-10

@@ -20,7 +20,7 @@ from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Parameter
 
 BUDGET = 1500
-"""Evaluations of each of the searches for the bare model."""
+"""Evaluations of a global search: for the bare model, and when an effect has joined."""
 
 SEARCHES = 2
 GRID = 48
@@ -75,12 +75,7 @@ class Bench:
     def bare(self, names: frozenset[str]) -> Trial:
         """A global search, as nothing is known yet."""
         problem = self.stack.problem(names)
-        optimizer = registry.build("optimizers", "pso-constriction")
-        starts = []
-        for run in range(SEARCHES if problem.space.dimension else 0):
-            start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
-            found = search(problem, optimizer, BUDGET, start, generator(self.seed, "diagnosis", run))
-            starts.append(problem.space.to_unit(found.values[:, None])[:, 0])
+        starts = [self._searched(problem, run) for run in range(SEARCHES)]
         centre = np.full((problem.space.dimension, 1), 0.5)
         points = np.column_stack([*starts, self._random(problem, centre)])
         return self._finished(problem, names, points)
@@ -121,7 +116,7 @@ class Bench:
         point = point_of(problem, trial.values)[:, None]
         own = [p.name for p in self.stack.model.parameters if p.name in trial.values]
         effects = np.array([name not in own for name in problem.space.names])
-        starts = [point, self._random(problem, point)]
+        starts = [point, self._random(problem, point), self._searched(problem, 0)[:, None]]
         if effects.any():
             elsewhere = np.repeat(point, RANDOM, axis=1)
             elsewhere[effects, 1:] = default_rng(self.seed).random((int(effects.sum()), RANDOM - 1))
@@ -175,6 +170,15 @@ class Bench:
             if np.all(apart > 0.05):
                 chosen.append(int(column))
         return np.array(chosen)
+
+    def _searched(self, problem: Problem, run: int) -> NDArray:
+        """The best point (dimension,) of a global search."""
+        if not problem.space.dimension:
+            return np.empty(0)
+        start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
+        optimizer = registry.build("optimizers", "pso-constriction")
+        found = search(problem, optimizer, BUDGET, start, generator(self.seed, "diagnosis", run))
+        return problem.space.to_unit(found.values[:, None])[:, 0]
 
     def _random(self, problem: Problem, around: NDArray) -> NDArray:
         """The best of random points: anywhere, and with some of the parameters as they are."""

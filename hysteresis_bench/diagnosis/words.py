@@ -23,10 +23,12 @@ def headline(
     before: Stage,
     after: Stage,
     noise: Noise,
+    floor: float,
     ties: Sequence[Tie],
     units: Mapping[str, str],
 ) -> str:
-    """The verdict, with the error before and after; an effect that is tied is never named alone."""
+    """The verdict, with the error before and after; an effect that is tied is never named alone, and one beside
+    which much more than the noise is left is named with a doubt."""
     unit = "" if units.get("output", "1") == "1" else f" {units['output']}"
     first, last = (stage.held_out or stage.fitted for stage in (before, after))
     where = "on what was held out" if after.held_out else "on what was fitted"
@@ -35,7 +37,8 @@ def headline(
     if adopted:
         named = listed([_or_its_rivals(name, ties) for name in adopted])
         moves = "falls" if last.rmse < first.rmse else "does NOT fall, it goes"
-        found = f"The model lacks {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
+        lacks = "may lack" if after.fitted.rmse > WRONG * floor else "lacks"
+        found = f"The model {lacks} {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
     else:
         found = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
     told = f"{found}; the noise is {noise.floor:.3g}."
