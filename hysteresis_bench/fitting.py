@@ -23,6 +23,7 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.model_file import Estimate, FittedModel, Preparation
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space
+from hysteresis_bench.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed
 from hysteresis_bench.signals import Dataset, Record
 
 DEFAULT_OPTIMIZER = "pso-constriction"
@@ -34,10 +35,6 @@ AGREE = 0.01
 differ by less than 1 % of the measured range (RMS)."""
 AT_BOUND = 1e-3
 """A parameter within this fraction of its (scaled) box from an edge is said to lie at its bound."""
-CLOSED = 1e-3
-"""A settled loop's last two passes differ by less than this fraction of the range of the output."""
-FIRST_REPEATS, MOST_REPEATS = 2, 32
-"""Passes before a loop is scored: doubled until it closes, or until the fit says that it does not."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +97,7 @@ def fit_records(
         found = [polish(problem, _search(problem, built, budget, seed, run)) for run in (0, 1)]
         losses = [float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found]
         values = found[int(np.argmin(losses))]
-        gap = _gap(system, ready.records, values, repeats) if settle else 0.0
+        gap = gap_after(system, ready.records, values, repeats) if settle else 0.0
         if gap < CLOSED or repeats >= MOST_REPEATS:
             break
         repeats *= 2
@@ -113,7 +110,12 @@ def fit_records(
     parameters = _parameter_table(problem, fitted)
     records, responses = _record_tables(system, values, dataset, ready)
     agrees, agreement = _agreement(problem, found, losses)
-    warnings = (*system.model.advice(seen.fitted), *_closing(gap, repeats), *_edges(parameters), *analysis.sentences())
+    warnings = (
+        *system.model.advice(seen.fitted),
+        *not_closed(gap, repeats),
+        *_edges(parameters),
+        *analysis.sentences(),
+    )
     notes = _notes(space, optimizer, budget, seed, repeats if settle else 0)
     return Fit(fitted, records, responses, parameters, analysis, agreement, agrees, warnings, notes)
 
@@ -182,17 +184,6 @@ def _search(problem: Problem, optimizer: Optimizer, budget: int, seed: int, run:
     return search(problem, optimizer, budget, start, generator(seed, "fit", run)).values
 
 
-def _gap(system: System, records: Sequence[Record], values: NDArray, repeats: int) -> float:
-    """How far the last two passes of the worst loop differ, as a fraction of the range of its output."""
-    gaps = []
-    for record in records:
-        simulated = system.respond(record, values[:, None])[:, 0]
-        period = record.time.size // (repeats + 1)
-        last, before = simulated[-period:], simulated[-2 * period : -period]
-        gaps.append(float(np.max(np.abs(last - before)) / (np.ptp(record.measured) or 1.0)))
-    return max(gaps)
-
-
 def _agreement(problem: Problem, found: Sequence[NDArray], losses: Sequence[float]) -> tuple[bool, str]:
     points = [problem.space.to_unit(values[:, None])[:, 0] for values in found]
     difference = problem.residuals(points[0]) - problem.residuals(points[1])
@@ -211,15 +202,6 @@ def _agreement(problem: Problem, found: Sequence[NDArray], losses: Sequence[floa
         )
     close = f"their outputs differ by {100 * apart:.2g} % of the range (RMS)" if apart > 1e-6 else "they found the same"
     return True, f"Two searches from other starts agree: {close}."
-
-
-def _closing(gap: float, repeats: int) -> list[str]:
-    if gap < CLOSED:
-        return []
-    return [
-        f"After {repeats} passes the simulated loop still moves by {100 * gap:.1f} % of its range a pass: "
-        f"the model does not close this loop."
-    ]
 
 
 def _edges(parameters: pd.DataFrame) -> list[str]:

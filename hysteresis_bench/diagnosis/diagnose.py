@@ -27,8 +27,9 @@ from hysteresis_bench.diagnosis.findings import (
 )
 from hysteresis_bench.diagnosis.fit_system import split
 from hysteresis_bench.diagnosis.memory import memory
-from hysteresis_bench.diagnosis.noise import Noise, noise, pooled_noise, unresolved
-from hysteresis_bench.diagnosis.preparation import SETTLED, thinned, with_held_out
+from hysteresis_bench.diagnosis.noise import noise, pooled_noise
+from hysteresis_bench.diagnosis.noise_floor import floor_of, without_hum
+from hysteresis_bench.diagnosis.preparation import passes_to_close, thinned, with_held_out
 from hysteresis_bench.diagnosis.residual_tests import residual_tests
 from hysteresis_bench.diagnosis.result import Diagnosis, Stage, Verdict
 from hysteresis_bench.diagnosis.selection import Selection, with_simplest_offset
@@ -43,10 +44,8 @@ from hysteresis_bench.fitting import fitted_model
 from hysteresis_bench.identifiability import analyse
 from hysteresis_bench.model_file import FittedModel, Preparation
 from hysteresis_bench.objective import Problem
+from hysteresis_bench.settling import gap_after, not_closed
 from hysteresis_bench.signals import Dataset, Record
-
-FINEST = 5e-4
-"""Share of the output's range below which an error is rounding and numerics, whatever the noise."""
 
 FOLLOWS = 0.5
 """Share of the output's variance that the response to the input must explain before any effect is named."""
@@ -59,7 +58,6 @@ TELLING = 0.03
 
 FEWEST_SAMPLES = 20
 
-HUM = "periodic-disturbance"
 QUIETER = 0.9
 """The noise without a hum that was found, over that with it, from which the search goes on with the new estimate."""
 
@@ -89,9 +87,10 @@ def diagnose(
     _check(dataset, model, settings or {}, effects)
     preparation = Preparation(input_offset, flip)
     seen = dataset.map(preparation)
-    seen = seen.map(lambda record: record.settled(SETTLED)) if settle else seen
-    ready, how = with_held_out(seen)
     built = registry.build("models", model, settings)
+    passes = passes_to_close(built, seen, effects, bounds, fixed, seed) if settle else 0
+    seen = seen.map(lambda record: record.settled(passes)) if passes else seen
+    ready, how = with_held_out(seen)
     remembers = memory(ready.fitted)
     off = {} if remembers.needed or remembers.ambiguous else without_hysteresis(built, ready.fitted)
     known = {**off, **(fixed or {})}
@@ -100,15 +99,15 @@ def diagnose(
         for records in (ready.fitted, thinned(ready.fitted))
     )
     loud = pooled_noise(ready.fitted)
-    floor = _floor(ready.fitted, loud)
+    floor = floor_of(ready.fitted, loud)
     possible, impossible = bench.stack.candidates()
     with Crew(bench, jobs or min(4, os.cpu_count() or 1)) as crew:
         selection = Selection(bench, crew, floor, possible)
         base = bench.bare(frozenset({"record-offset"}))
         found = selection.run(base)
-        quieter = pooled_noise(_without_hum(full, found))
+        quieter = pooled_noise(without_hum(full, found))
         if quieter.floor < QUIETER * loud.floor:  # a fast hum had passed for noise
-            loud, floor = quieter, _floor(ready.fitted, quieter)
+            loud, floor = quieter, floor_of(ready.fitted, quieter)
             selection.floor = floor
             found = selection.run(found)
         alone = not _follows(full.stack, found)
@@ -143,6 +142,8 @@ def diagnose(
     if remains or alone or not carries_over(before, after):
         verdict = "unexplained-residual"
     told = warnings(built, ready.fitted, final, alone, floor, loud.floor, ties)
+    if passes:
+        told = (*told, *not_closed(gap_after(after.problem.system, ready.fitted, after.values, passes), passes))
     if not carries_over(before, after):
         told = ("What was adopted does not carry over to the held-out records: do not believe the names.", *told)
     return Diagnosis(
@@ -183,28 +184,6 @@ def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: S
             )
     if faults:
         raise UserError("diagnose", faults)
-
-
-def _floor(records: Sequence[Record], noise: Noise) -> float:
-    """RMS below which nothing is judged: noise, what lies between the samples, rounding."""
-    span = max(float(np.ptp(record.measured)) for record in records)
-    return max(float(np.hypot(noise.floor, unresolved(records))), FINEST * span)
-
-
-def _without_hum(bench: Bench, trial: Trial) -> tuple[Record, ...]:
-    """The records without the periodic disturbance that was found."""
-    if HUM not in trial.names:
-        return bench.stack.records
-    problem = bench.stack.problem(trial.names)
-    silent = {f"{HUM}.{p.name}": p.null for p in bench.stack.effect(HUM).parameters if p.null is not None}
-    both = np.array(
-        [[trial.values[name], silent.get(name, trial.values[name])] for name in problem.space.names], dtype=float
-    )
-    quiet = []
-    for record in bench.stack.records:
-        heard, unheard = problem.system.simulate(record.signal, both).T
-        quiet.append(replace(record, output=record.output - (heard - unheard)))
-    return tuple(quiet)
 
 
 def _follows(stack: Stack, trial: Trial) -> bool:

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis import covariates
 from hysteresis_bench.diagnosis.noise import fast_noise
+from hysteresis_bench.diagnosis.stack import Stack
+from hysteresis_bench.diagnosis.trials import Bench
+from hysteresis_bench.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
 from hysteresis_bench.signals import Dataset, Record
-
-SETTLED = 2
-"""Passes of a closed loop before it is scored."""
 
 MOST = 4000
 """Samples that the search for effects works on; the final fits use all."""
@@ -22,6 +23,27 @@ RESOLVED = 0.04
 
 FEWEST = 60
 """Scored samples of a record from which a third is worth holding out."""
+
+
+def passes_to_close(
+    model: Model,
+    dataset: Dataset,
+    effects: Sequence[str],
+    bounds: Mapping[str, tuple[float, float]] | None,
+    fixed: Mapping[str, float] | None,
+    seed: int,
+) -> int:
+    """How often a closed loop is repeated before it is scored: until the bare model, fitted, closes it."""
+    passes = FIRST_REPEATS
+    while True:
+        records = tuple(record.settled(passes) for record in dataset.fitted)
+        bench = Bench(Stack(model, thinned(records), tuple(effects), bounds, fixed), seed)
+        bare = bench.bare(frozenset({"record-offset"}))
+        problem = bench.stack.problem(bare.names)
+        values = np.array([bare.values[name] for name in problem.space.names])
+        if passes >= MOST_REPEATS or gap_after(problem.system, records, values, passes) < CLOSED:
+            return passes
+        passes *= 2
 
 
 def with_held_out(dataset: Dataset) -> tuple[Dataset, str]:

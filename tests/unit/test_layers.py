@@ -15,7 +15,7 @@ FLOORS = [
     ["study"],
     ["stats"],
     ["fitting"],
-    ["model_file", "identifiability", "combinations", "identify"],
+    ["model_file", "identifiability", "combinations", "identify", "settling"],
     ["accuracy", "objective"],
     ["compose", "loss"],
     ["registry"],

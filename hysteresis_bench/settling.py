@@ -1,0 +1,41 @@
+"""Closed loops are repeated until they close: how often, and how far from closed a simulated loop still is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hysteresis_bench.compose import System
+from hysteresis_bench.signals import Record
+
+CLOSED = 1e-3
+"""A settled loop's last two passes differ by less than this fraction of the range of the output."""
+
+FIRST_REPEATS, MOST_REPEATS = 2, 32
+"""Passes before a loop is scored: doubled until it closes, or until the fit says that it does not."""
+
+
+def gap_after(system: System, records: Sequence[Record], values: NDArray, repeats: int) -> float:
+    """How far the last two passes of the worst loop differ, as a fraction of the range of its output.
+
+    values : (dimension,), in units;  records : preceded by `repeats` of themselves
+    """
+    gaps = []
+    for record in records:
+        simulated = system.respond(record, values[:, None])[:, 0]
+        period = record.time.size // (repeats + 1)
+        last, before = simulated[-period:], simulated[-2 * period : -period]
+        gaps.append(float(np.max(np.abs(last - before)) / (np.ptp(record.measured) or 1.0)))
+    return max(gaps)
+
+
+def not_closed(gap: float, repeats: int) -> list[str]:
+    """The sentence on a loop that does not close, or nothing."""
+    if gap < CLOSED:
+        return []
+    return [
+        f"After {repeats} passes the simulated loop still moves by {100 * gap:.1f} % of its range a pass: "
+        f"the model does not close this loop."
+    ]
