@@ -55,6 +55,7 @@ class Case:
     options: Mapping[str, Any] = field(default_factory=dict)
 
 
+PIEZO = ("piezo-picma-ntu/full_amplitude_1Hz.csv", "piezo-picma-ntu/modulated_1Hz_ramp_down.csv")
 CAPACITOR, PZT, HFO2, FEFET = (
     f"{folder}/frequency_loops_{volts}V"
     for folder, volts in (
@@ -74,12 +75,45 @@ CASES = (
     Case(
         "piezo",
         "piezo stack PI PICMA P-885.91, voltage to displacement",
-        ("piezo-picma-ntu/full_amplitude_1Hz.csv", "piezo-picma-ntu/modulated_1Hz_ramp_down.csv"),
+        PIEZO,
         ("s", "V", "um"),
         "bouc-wen",
         "1 Hz only, so that rate dependence cannot show; the first 0.5 s are a switch-on transient; the sensor's "
         "noise is 0.065 µm; offsets differ between records",
         held_out=("modulated_1Hz_ramp_down",),
+        skip=0.5,
+        options={"effects": ("record-offset",)},
+    ),
+    Case(
+        "piezo, several amplitudes fitted",
+        "piezo stack PI PICMA P-885.91, voltage to displacement",
+        PIEZO,
+        ("s", "V", "um"),
+        "bouc-wen",
+        "the same records, but the one whose amplitude changes is fitted and the one of full amplitude held out",
+        held_out=("full_amplitude_1Hz",),
+        skip=0.5,
+        options={"effects": ("record-offset",)},
+    ),
+    Case(
+        "piezo, each record's own drift",
+        "piezo stack PI PICMA P-885.91, voltage to displacement",
+        PIEZO,
+        ("s", "V", "um"),
+        "bouc-wen",
+        "as before, with one straight line in time a record beside its offset, before and after: the full-amplitude "
+        "record drifts by half a micrometre, the other does not",
+        held_out=("full_amplitude_1Hz",),
+        skip=0.5,
+        options={"effects": ("record-offset", "record-drift")},
+    ),
+    Case(
+        "piezo, within one record",
+        "piezo stack PI PICMA P-885.91, voltage to displacement",
+        PIEZO[:1],
+        ("s", "V", "um"),
+        "bouc-wen",
+        "the first two thirds of the full-amplitude record fitted, the last third predicted",
         skip=0.5,
         options={"effects": ("record-offset",)},
     ),

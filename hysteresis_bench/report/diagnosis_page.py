@@ -10,6 +10,7 @@ from hysteresis_bench.diagnosis.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.residual_tests import OVERALL, ResidualTest
 from hysteresis_bench.diagnosis.result import Candidate, Diagnosis
 from hysteresis_bench.diagnosis.selection import LEVEL
+from hysteresis_bench.diagnosis.words import WRONG
 from hysteresis_bench.report.before_after import besides_ties, errors_table, record_pictures, rmse_in, sentence
 from hysteresis_bench.report.diagnosis_figures import waterfall
 from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, percent, probability, render
@@ -57,7 +58,10 @@ def _title(diagnosis: Diagnosis) -> str:
     unexplained = diagnosis.verdict == "unexplained-residual"
     if diagnosis.effects:
         more = ", and something without a name" if unexplained else ""
-        return f"{model} lacks {listed(diagnosis.effects)}{more}"
+        tied = {tie.effect for tie in diagnosis.ties}
+        names = [f"{name} or its like" if name in tied else name for name in diagnosis.effects]
+        lacks = "may lack" if diagnosis.after.fitted.rmse > WRONG * diagnosis.floor else "lacks"
+        return f"{model} {lacks} {listed(names)}{more}"
     return f"{model} leaves something that no effect explains" if unexplained else f"{model} lacks nothing known here"
 
 

@@ -127,7 +127,7 @@ def test_nothing_missing_is_told_without_advice_or_added_parameters(tmp_path, di
 
 def test_what_is_left_is_in_the_title(tmp_path, diagnosis):
     left = replace(diagnosis, verdict="unexplained-residual")
-    assert "lacks input-lag, and something without a name" in _plain(_written(tmp_path, left))
+    assert "input-lag or its like, and something without a name" in _plain(_written(tmp_path, left))
     unnamed = replace(left, effects=(), ties=())
     assert "leaves something that no effect explains" in _plain(_written(tmp_path, unnamed))
 
