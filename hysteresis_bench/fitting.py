@@ -23,7 +23,7 @@ from hysteresis_bench.loss import LOSSES
 from hysteresis_bench.model_file import Estimate, FittedModel, Preparation
 from hysteresis_bench.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space
-from hysteresis_bench.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed
+from hysteresis_bench.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
 from hysteresis_bench.signals import Dataset, Record
 
 DEFAULT_OPTIMIZER = "pso-constriction"
@@ -151,12 +151,7 @@ def _check(system: System, dataset: Dataset, settle: bool) -> None:
     for record in dataset.fitted:
         if np.ptp(record.measured) == 0:
             faults.append(f"record {record.name}: the output is constant; there is nothing to identify.")
-        step = float(np.max(np.abs(np.diff(record.input))))
-        if settle and abs(record.input[-1] - record.input[0]) > 2 * step:
-            faults.append(
-                f"record {record.name} is not a closed loop: its input begins at {record.input[0]:g} and ends at "
-                f"{record.input[-1]:g}. Leave --settle out, or cut the record to whole periods."
-            )
+    faults += open_loops(dataset.records) if settle else []
     samples = sum(record.measured.size for record in dataset.fitted)
     if samples <= len(system.parameters):
         faults.append(f"{samples} samples cannot determine {len(system.parameters)} parameters.")

@@ -17,6 +17,16 @@ FIRST_REPEATS, MOST_REPEATS = 2, 32
 """Passes before a loop is scored: doubled until it closes, or until the fit says that it does not."""
 
 
+def open_loops(records: Sequence[Record]) -> list[str]:
+    """A sentence on every record that is no closed loop, so that it cannot be repeated."""
+    return [
+        f"record {record.name} is not a closed loop: its input begins at {record.input[0]:g} and ends at "
+        f"{record.input[-1]:g}. Leave --settle out, or cut the record to whole periods."
+        for record in records
+        if abs(record.input[-1] - record.input[0]) > 2 * float(np.max(np.abs(np.diff(record.input))))
+    ]
+
+
 def gap_after(system: System, records: Sequence[Record], values: NDArray, repeats: int) -> float:
     """How far the last two passes of the worst loop differ, as a fraction of the range of its output.
 

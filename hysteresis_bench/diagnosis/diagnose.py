@@ -44,7 +44,7 @@ from hysteresis_bench.fitting import fitted_model
 from hysteresis_bench.identifiability import analyse
 from hysteresis_bench.model_file import FittedModel, Preparation
 from hysteresis_bench.objective import Problem
-from hysteresis_bench.settling import gap_after, not_closed
+from hysteresis_bench.settling import gap_after, not_closed, open_loops
 from hysteresis_bench.signals import Dataset, Record
 
 FOLLOWS = 0.5
@@ -84,7 +84,7 @@ def diagnose(
     jobs : processes; default: as many as cores, at most 4
     Raises UserError telling every fault at once.
     """
-    _check(dataset, model, settings or {}, effects)
+    _check(dataset, model, settings or {}, effects, settle)
     preparation = Preparation(input_offset, flip)
     seen = dataset.map(preparation)
     built = registry.build("models", model, settings)
@@ -171,10 +171,15 @@ def diagnose(
     )
 
 
-def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: Sequence[str]) -> None:
+def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: Sequence[str], settle: bool) -> None:
     faults = registry.faults("models", model, settings)
     for name in effects:
         faults += registry.effect_faults(name, model)
+    if not faults:
+        known = registry.build_effects(registry.build("models", model, settings), effects)
+        reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}
+        faults += [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]
+    faults += open_loops(dataset.records) if settle else []
     for record in dataset.fitted:
         if np.ptp(record.measured) == 0:
             faults.append(f"record {record.name}: the output is constant; there is nothing to diagnose.")
