@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.description import accepted
 from hysteresis_bench.diagnosis.findings import (
     candidate_rows,
     description_row,
-    last_steps,
+    in_order,
     step_of,
     ties_of,
     waterfall_of,
@@ -116,22 +116,19 @@ def diagnose(
         ties, rivals = ties_of(selection, found)
         steps = tuple(step_of(selection, number) for number in range(len(selection.rounds)))
         candidates = candidate_rows(selection, found, impossible, ties)
-        waterfall = waterfall_of(selection, base, found)
+        order = in_order(selection, base, found)
     offset = next((name for name in OFFSETS if name in final.names), "")
-    nuisance = frozenset({"record-offset"} & final.names)
+    adopted = (*(name for name, _ in order), *(["bias"] if offset == "bias" else []))
+    # where more than an offset is missing, before has the offset too: the gain is the effects' own
+    nuisance = frozenset(OFFSETS if order else ["record-offset"]) & final.names
     whole, thin = (replace(one, stack=replace(one.stack, fixed=fixed)) for one in (full, bench))
-    adopted = (*(label for label, _ in waterfall[1:]), *(["bias"] if offset == "bias" else []))
     bare = thin.bare(nuisance)
     if final.names == nuisance and final.rmse < bare.rmse:
         before = after = _stage(full, final, ready)
     else:
         before = _stage(whole, bare, ready)
         after = before if final.names == nuisance else _stage(full, final, ready)
-    waterfall = (
-        (f"{model} alone", before.fitted.rmse),
-        *waterfall[1:-1],
-        *last_steps(waterfall, after, offset),
-    )
+    waterfall = waterfall_of(full, model, before, order, final, after)
     equation, remains = _left(ready.fitted, after, floor)
     if accept_terms and equation and equation.terms:
         candidates = (description_row(equation, after), *candidates)

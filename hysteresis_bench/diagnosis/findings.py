@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from hysteresis_bench.diagnosis.description import NAME
 from hysteresis_bench.diagnosis.result import Candidate, Stage, Step
 from hysteresis_bench.diagnosis.selection import Selection
+from hysteresis_bench.diagnosis.stack import OFFSETS
 from hysteresis_bench.diagnosis.terms import Equation
 from hysteresis_bench.diagnosis.ties import Tie, tie
-from hysteresis_bench.diagnosis.trials import Trial
+from hysteresis_bench.diagnosis.trials import Bench, Trial
 
 
 def ties_of(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[Trial]]:
@@ -90,21 +92,27 @@ def description_row(equation: Equation, before: Stage) -> Candidate:
     )
 
 
-def waterfall_of(selection: Selection, base: Trial, found: Trial) -> tuple[tuple[str, float], ...]:
-    """From the bare model, the effect that helps most first."""
-    current, steps = base, [("", base.rmse)]
+def in_order(selection: Selection, base: Trial, found: Trial) -> list[tuple[str, Trial]]:
+    """The adopted effects, the one that helps most first, each with the system that it completes."""
+    current, steps = base, []
     while left := found.names - current.names:
         names = sorted(left)
-        best = min(zip(selection.with_each(current, names), names, strict=True), key=lambda pair: pair[0].rmse)
-        current = best[0]
-        steps.append((best[1], current.rmse))
-    return tuple(steps)
+        current, best = min(zip(selection.with_each(current, names), names, strict=True), key=lambda pair: pair[0].rmse)
+        steps.append((best, current))
+    return steps
 
 
-def last_steps(waterfall: Sequence[tuple[str, float]], after: Stage, offset: str) -> list[tuple[str, float]]:
-    """The last steps, with the error of the final fit to all samples."""
-    effects = [label for label, _ in waterfall[1:]][-1:]
-    if offset == "bias":
-        steps = [(label, rmse) for label, rmse in waterfall[1:]][-1:]
-        return [*steps, ("bias", after.fitted.rmse)]
-    return [(label, after.fitted.rmse) for label in effects]
+def waterfall_of(
+    full: Bench, model: str, before: Stage, steps: Sequence[tuple[str, Trial]], final: Trial, after: Stage
+) -> tuple[tuple[str, float], ...]:
+    """Label and RMSE on all fitted samples, from the bare model to the final system, all with the same offset."""
+    offsets = frozenset(before.names) & {*OFFSETS}
+    label = f"{model} with a bias" if "bias" in offsets else f"{model} alone"
+    bars = [(label, before.fitted.rmse)]
+    for name, trial in steps[:-1]:
+        same = replace(trial, names=(trial.names - {*OFFSETS}) | offsets, values={**final.values, **trial.values})
+        left = full.errors(same.names, full.polished(same))
+        bars.append((name, float(np.sqrt(np.mean(left**2)))))
+    if steps or after is not before:
+        bars.append((steps[-1][0] if steps else "bias", after.fitted.rmse))
+    return tuple(bars)

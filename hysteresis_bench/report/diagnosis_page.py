@@ -88,7 +88,7 @@ def _errors(diagnosis: Diagnosis) -> Table:
         {"fitted": stage.fitted.as_dict(), "held_out": stage.held_out.as_dict() if stage.held_out else None}
         for stage in (diagnosis.before, diagnosis.after)
     )
-    offset = f" Both have the offset {diagnosis.offset}." if diagnosis.offset == "record-offset" else ""
+    offset = f" Both have the offset {diagnosis.offset}." if diagnosis.offset in diagnosis.before.names else ""
     note = f"Relative to the largest |output − offset| measured.{offset} {sentence(diagnosis.noise.words)}"
     return errors_table(before, after, diagnosis.floor, diagnosis.units, note)
 
