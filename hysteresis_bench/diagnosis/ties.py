@@ -31,6 +31,28 @@ REASONS = {
     frozenset({"drift", "temperature-sensitivity"}): (
         "the temperature changed steadily with time, so that either may move the zero"
     ),
+    frozenset({"eddy-current", "input-lag"}): (
+        "where the slope of the loop changes little, eddy currents are an input lag of the coefficient times the slope"
+    ),
+    frozenset({"eddy-current", "output-lag"}): (
+        "where the slope of the loop changes little, eddy currents are a lag, and a small lag before the hysteresis "
+        "and one after it differ only at second order"
+    ),
+    frozenset({"eddy-current", "transport-delay"}): (
+        "where the slope of the loop changes little, eddy currents are a lag, which at one frequency is a delay"
+    ),
+    frozenset({"creep", "eddy-current"}): "both let a part of the response arrive late",
+    frozenset(
+        {"creep", "transport-delay"}
+    ): "both let the response arrive late; they differ in how it depends on speed",
+    frozenset({"asymmetry", "saturation"}): (
+        "off the middle of the loop, a bend of the input and a bend of the output are the same to first order"
+    ),
+    frozenset({"drift", "periodic-disturbance"}): "less than a period of a slow disturbance is a drift",
+    frozenset({"input-lag", "periodic-disturbance"}): (
+        "with a periodic input, a disturbance of its frequency shifts the loop as a lag does"
+    ),
+    frozenset({"backlash", "rayleigh-hysteresis"}): "both make the loop wider with the amplitude",
     frozenset({"backlash", "input-lag"}): "at one amplitude and frequency both shift the loop after a reversal",
 }
 GENERIC = "on these records both change the output in the same way, within the noise"

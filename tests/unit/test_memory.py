@@ -11,6 +11,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.signal import lsim
 
+from hysteresis_bench import registry
 from hysteresis_bench.data_files import read_data
 from hysteresis_bench.diagnosis.memory import memory
 from hysteresis_bench.signals import INDEX, Record
@@ -88,6 +89,28 @@ def test_a_long_lag_at_one_speed_is_called_ambiguous() -> None:
     sine = memory(records(lambda u: np.interp(TIME - 0.04, TIME, u), [SINE], 0.005))
     assert sine.ambiguous or not sine.needed
     assert not memory(records(lambda u: np.interp(TIME - 0.04, TIME, u), [SINE, SWEEP], 0.005)).needed
+
+
+def test_a_drift_ten_times_the_loop_hides_nothing() -> None:
+    def drifting(law: Callable[[NDArray], NDArray]) -> Callable[[NDArray], NDArray]:
+        return lambda u: law(u) + 10.0 * np.ptp(relays(u)) * TIME / TIME[-1]
+
+    answer, still = (memory(records(law, [NESTED], 2e-4)) for law in (drifting(relays), relays))
+    assert answer.needed
+    assert answer.explained == pytest.approx(still.explained, rel=0.1)
+    assert not memory(records(drifting(np.tanh), [NESTED], 2e-4)).needed
+
+
+def test_what_no_law_explains_is_not_judged() -> None:
+    """A loop that fades with the path travelled and swells with a temperature: branches that stay are no better."""
+    hidden = {"effects": ("fatigue", "temperature-sensitivity"), "draw": 3, "model": "bouc-wen"}
+    rig = registry.build("rigs", "hidden-effects", hidden)
+    rng = np.random.default_rng(7)
+    measured = [rig.measure(name, rng).records[0] for name in ("slow", "fast", "nested", "sweep")]
+    answer = memory([record.take(slice(None, None, 4)) for record in measured])
+    assert not answer.needed
+    assert answer.ambiguous
+    assert "cannot be judged" in answer.words
 
 
 def test_delays_are_found() -> None:

@@ -9,7 +9,16 @@ import pytest
 from numpy.typing import NDArray
 
 from hysteresis_bench.data_files import read_data
-from hysteresis_bench.diagnosis.noise import clipped_rms, fast_noise, grid_step, noise, period, pooled_noise
+from hysteresis_bench.diagnosis.noise import (
+    MISSED,
+    clipped_rms,
+    fast_noise,
+    grid_step,
+    noise,
+    period,
+    pooled_noise,
+    unresolved,
+)
 from hysteresis_bench.signals import Record
 
 TIME = np.arange(4000) / 1000.0
@@ -126,6 +135,29 @@ def test_pooled_noise_weighs_by_samples() -> None:
     assert both.rms == pytest.approx(np.sqrt((2 * 0.01**2 + 0.03**2) / 3), rel=0.05)
     assert both.samples == 6000
     assert both.repeat_rms is None
+
+
+@pytest.mark.parametrize("samples", [20, 60, 400])
+@pytest.mark.parametrize("cycles", [3, 10])
+def test_what_samples_miss_of_a_sine(samples: int, cycles: int) -> None:
+    """Second differences are 4 sin^2(pi / samples) of the sine, whose median size is 1 / sqrt 2 of its height; an
+    arc sags by an eighth of them."""
+    time = np.arange(samples * cycles + 1) / samples
+    u = 3.0 + 5.0 * np.sin(2 * np.pi * time + 0.1)
+    sag = 5.0 * np.sin(np.pi / samples) ** 2 / 2.0 / np.sqrt(2.0)
+    record = Record(time, u, -2.0 * u)
+    assert unresolved([record]) == pytest.approx(MISSED * 2.0 * sag, rel=0.1)
+    between = time[1:] - 0.5 / samples
+    missed = np.abs(np.interp(between, time, u) - 3.0 - 5.0 * np.sin(2 * np.pi * between + 0.1))
+    assert np.median(missed) == pytest.approx(sag, rel=0.1)
+    assert unresolved([record, record]) == pytest.approx(unresolved([record]))
+
+
+def test_samples_miss_nothing_of_straight_lines() -> None:
+    u = INPUTS["triangle"]
+    assert unresolved([Record(TIME, u, loop(u))]) < 1e-12
+    assert unresolved([Record(TIME[:2], u[:2], u[:2])]) == 0.0
+    assert unresolved([Record(TIME, np.ones(TIME.size), u)]) == 0.0
 
 
 def test_clipping_forgets_outliers() -> None:
