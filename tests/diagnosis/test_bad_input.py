@@ -1,5 +1,7 @@
 """Data that cannot be diagnosed, or hardly: a clear verdict or message, never a confident wrong name."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -12,6 +14,18 @@ from tests.diagnosis.generator import make
 def first(dataset, **changes):
     record = dataset.records[0]
     return Record(**{"time": record.time, "input": record.input, "output": record.output, "name": "only", **changes})
+
+
+def part_of(dataset, change=lambda record: record, step=1):
+    """Two records to fit and one held out, changed; every so manieth sample."""
+    names = ("fit-1", "fit-2", "held-1")
+    records = [change(record).take(slice(None, None, step)) for record in dataset.records if record.name in names]
+    return Dataset(tuple(records), names[2:])
+
+
+def claims(found):
+    """Each adopted effect with those that would do as well."""
+    return [{name, *(one.rival for one in found.ties if one.effect == name)} for name in found.effects]
 
 
 def test_one_record_is_split_in_time():
@@ -29,6 +43,69 @@ def test_no_noise_at_all_and_nothing_hidden():
     assert found.effects == ()
     assert found.verdict == "no-effect-needed"
     assert any("next to no noise" in warning for warning in found.warnings)
+
+
+@pytest.mark.parametrize("hidden", ["backlash", "input-lag"])
+def test_no_noise_at_all_and_one_effect(hidden):
+    found = diagnose(part_of(make(4, "bouc-wen", hidden=(hidden,), noise=0.0).dataset), "bouc-wen", jobs=1)
+    assert len(found.effects) == 1
+    assert hidden in claims(found)[0]
+    assert found.after.held_out.rmse < 0.1 * found.before.held_out.rmse
+
+
+def test_noise_is_not_called_none():
+    """What lies between the samples adds little to it."""
+    record = first(make(3, "bouc-wen", hidden=(), noise=0.004).dataset)
+    found = diagnose(Dataset((record.take(slice(0, 160)),)), "bouc-wen", jobs=1)
+    assert found.noise.floor == pytest.approx(0.004 * np.ptp(record.output), rel=0.2)
+    assert not any("next to no noise" in warning for warning in found.warnings)
+
+
+def test_an_output_that_is_cut_off():
+    """Sharper than the box of a saturation: the right name, and a word on the edge."""
+    rng = np.random.default_rng(9)
+
+    def cut(record):
+        output = np.clip(record.output, -1.5, 1.5) + 0.012 * rng.standard_normal(record.time.size)
+        return replace(record, output=output)
+
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.0).dataset, cut), "bouc-wen", jobs=1)
+    assert found.effects == ("saturation",) or found.verdict == "unexplained-residual"
+    assert any("saturation.sharpness lies at the edge" in warning for warning in found.warnings)
+
+
+def test_a_delay_longer_than_any_that_is_tried():
+    """The box ends at half a period of the slowest record."""
+
+    def late(record):
+        return replace(record, output=np.interp(record.time - 0.7, record.time, record.output))
+
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 2), "bouc-wen", jobs=1)
+    assert found.verdict == "unexplained-residual"
+    assert found.effects == ()
+
+
+def test_one_frequency_cannot_show_a_resonance():
+    record = first(make(3, "bouc-wen", hidden=("resonance",), noise=0.004).dataset)
+    found = diagnose(Dataset((record,)), "bouc-wen", jobs=1)
+    row = next(row for row in found.candidates if row.effect == "resonance")
+    assert not row.applicable
+    assert "at the one frequency" in row.reason
+    assert all(
+        len(names) > 1 and names <= {"input-lag", "output-lag", "transport-delay", "creep"} for names in claims(found)
+    )
+
+
+def test_an_output_that_runs_backwards_in_time():
+    def backwards(record):
+        return replace(record, output=record.output[::-1].copy())
+
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, backwards, 2), "bouc-wen", jobs=1)
+    assert found.verdict == "unexplained-residual"
+    assert not found.effects or "may lack" in found.headline
+    assert any(
+        "does not follow these data" in warning or "does not follow the input" in warning for warning in found.warnings
+    )
 
 
 def test_constant_output():
