@@ -77,7 +77,7 @@ def warnings(
         told.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
         )
-    if noise < floor:
+    if noise < 0.5 * floor:  # what lies between the samples puts every floor a little above the noise
         told.append("The data have next to no noise; below a few parts in ten thousand of the range nothing is judged.")
     for one in ties:
         told.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")
