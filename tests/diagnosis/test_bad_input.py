@@ -75,14 +75,14 @@ def test_an_output_that_is_cut_off():
 
 
 def test_a_delay_longer_than_any_that_is_tried():
-    """The box ends at half a period of the slowest record."""
+    """The box ends at half a period of the slowest record: whatever is named there is doubted."""
 
     def late(record):
         return replace(record, output=np.interp(record.time - 0.7, record.time, record.output))
 
     found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 2), "bouc-wen", jobs=1)
     assert found.verdict == "unexplained-residual"
-    assert found.effects == ()
+    assert not found.effects or "may lack" in found.headline
 
 
 def test_one_frequency_cannot_show_a_resonance():
