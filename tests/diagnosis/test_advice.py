@@ -17,7 +17,7 @@ def fitted(effect, alpha):
     """Bouc-Wen with one effect that makes it late by 20 ms."""
     model = registry.build("models", "bouc-wen")
     system = System(model, registry.build_effects(model, (effect,), {}))
-    return system, np.array([alpha, 0.6, 0.2, 2.0, 0.02])
+    return system, np.array([alpha, 0.6, 0.2, 1.7, 0.02])
 
 
 def advice_on(alpha, *names):

@@ -40,7 +40,7 @@ def test_what_is_hidden_is_named(seed, model, hidden):
     unseen = accuracy(found.after.problem.system, case.unseen, found.after.values).rmse
     assert unseen < 1.15 * case.noise
     if hidden:
-        assert found.before.held_out.rmse > 1.1 * found.after.held_out.rmse
+        assert found.before.held_out.rmse > 1.5 * found.after.held_out.rmse
     else:
         assert found.after is found.before
 
