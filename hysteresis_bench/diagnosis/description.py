@@ -41,15 +41,15 @@ class Description(Effect):
         output = inner(signal)
         if not self.terms:
             return output
-        record = Record(signal.time, np.ascontiguousarray(signal.input[:, 0]), None)
+        records = [Record(signal.time, np.ascontiguousarray(u), None) for u in signal.input.T]
         added = np.zeros_like(output)
         for part in self.terms:
             term = Term(part["kind"], part["value"], part["centre"], part["resolution"])
             if term.of_output:
-                column = np.column_stack([term.column(record, one) for one in output.T])
+                columns = [term.column(records[0], one) for one in output.T]
             else:
-                column = term.column(record)[:, None]
-            added += part["coefficient"] * (column - part["mean"])
+                columns = [term.column(record) for record in records]
+            added += part["coefficient"] * (np.column_stack(columns) - part["mean"])
         return output + added
 
 

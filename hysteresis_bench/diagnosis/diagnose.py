@@ -35,6 +35,7 @@ from hysteresis_bench.diagnosis.result import Diagnosis, Stage, Verdict
 from hysteresis_bench.diagnosis.selection import Selection, with_simplest_offset
 from hysteresis_bench.diagnosis.stack import OFFSETS, OUTER, Stack
 from hysteresis_bench.diagnosis.terms import Equation, find_terms
+from hysteresis_bench.diagnosis.threads import single_threaded
 from hysteresis_bench.diagnosis.ties import Tie
 from hysteresis_bench.diagnosis.trials import Bench, Trial
 from hysteresis_bench.diagnosis.without_hysteresis import without_hysteresis
@@ -62,6 +63,7 @@ QUIETER = 0.9
 """The noise without a hum that was found, over that with it, from which the search goes on with the new estimate."""
 
 
+@single_threaded
 def diagnose(
     dataset: Dataset,
     model: str,
@@ -138,7 +140,7 @@ def diagnose(
     verdict: Verdict = "effect-found" if adopted else "no-effect-needed"
     if remains or alone or not carries_over(before, after):
         verdict = "unexplained-residual"
-    told = warnings(built, ready.fitted, final, alone, floor, loud.floor, ties)
+    told = warnings(built, ready.fitted, final, after, alone, floor, loud.floor, ties)
     if passes:
         told = (*told, *not_closed(gap_after(after.problem.system, ready.fitted, after.values, passes), passes))
     if not carries_over(before, after):

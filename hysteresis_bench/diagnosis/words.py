@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from hysteresis_bench.combinations import listed
 from hysteresis_bench.contracts import Model
+from hysteresis_bench.diagnosis.description import NAME as DESCRIPTION
 from hysteresis_bench.diagnosis.noise import Noise
 from hysteresis_bench.diagnosis.result import Stage, Verdict
 from hysteresis_bench.diagnosis.ties import Tie
@@ -34,14 +35,17 @@ def headline(
     where = "on what was held out" if after.held_out else "on what was fitted"
     if alone:
         return "The output does not follow the input: the model explains less than half of it, and no effect is named."
-    if adopted:
-        named = listed([_or_its_rivals(name, ties) for name in adopted])
+    effects = [name for name in adopted if name != DESCRIPTION]
+    if effects:
+        named = listed([_or_its_rivals(name, ties) for name in effects])
         moves = "falls" if last.rmse < first.rmse else "does NOT fall, it goes"
         lacks = "may lack" if after.fitted.rmse > WRONG * floor else "lacks"
         found = f"The model {lacks} {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
     else:
         found = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
     told = f"{found}; the noise is {noise.floor:.3g}."
+    if DESCRIPTION in adopted:
+        told += " Terms that describe what was left, without explaining it, have been added."
     if verdict == "unexplained-residual":
         told += " Something is left that no effect explains."
     return told
@@ -58,14 +62,21 @@ def carries_over(before: Stage, after: Stage) -> bool:
 
 
 def warnings(
-    model: Model, records: Sequence[Record], final: Trial, alone: bool, floor: float, noise: float, ties: Sequence[Tie]
+    model: Model,
+    records: Sequence[Record],
+    final: Trial,
+    after: Stage,
+    alone: bool,
+    floor: float,
+    noise: float,
+    ties: Sequence[Tie],
 ) -> tuple[str, ...]:
     """What a user must know before believing the names. floor : RMS from which anything is judged"""
     told = list(model.advice(records)) if not final.names & {"bias", "record-offset"} else []
-    if final.rmse > WRONG * floor and not alone:
+    if after.fitted.rmse > WRONG * floor and not alone:
         told.append(
-            f"The final system still leaves {final.rmse / floor:.2g} times the noise: the model's own law does not "
-            "follow these data, and what is named may stand in for that."
+            f"The final system still leaves {after.fitted.rmse / floor:.2g} times the noise: the model's own law does "
+            "not follow these data, and what is named may stand in for that."
         )
     if alone:
         told.append("The output does not follow the input; whatever would fit it is no diagnosis.")

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hysteresis_bench.diagnosis.cross_validation import CLEAR
+from hysteresis_bench.diagnosis.description import NAME as DESCRIPTION
 from hysteresis_bench.diagnosis.residual_tests import OVERALL, ResidualTest
 from hysteresis_bench.diagnosis.result import Candidate, Diagnosis
 from hysteresis_bench.diagnosis.selection import LEVEL
@@ -56,10 +57,10 @@ def write_diagnosis_page(folder: Path, diagnosis: Diagnosis, files: Sequence[Pat
 def _title(diagnosis: Diagnosis) -> str:
     model = diagnosis.model_name
     unexplained = diagnosis.verdict == "unexplained-residual"
-    if diagnosis.effects:
+    if set(diagnosis.effects) - {DESCRIPTION}:
         more = ", and something without a name" if unexplained else ""
         tied = {tie.effect for tie in diagnosis.ties}
-        names = [f"{name} or its like" if name in tied else name for name in diagnosis.effects]
+        names = [f"{name} or its like" if name in tied else name for name in diagnosis.effects if name != DESCRIPTION]
         lacks = "may lack" if diagnosis.after.fitted.rmse > WRONG * diagnosis.floor else "lacks"
         return f"{model} {lacks} {listed(names)}{more}"
     return f"{model} leaves something that no effect explains" if unexplained else f"{model} lacks nothing known here"
