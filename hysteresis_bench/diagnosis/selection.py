@@ -43,6 +43,9 @@ MISFIT, CLEARLY = 1.2, 0.1
 """RMSE over noise from which the model itself is wrong, and the share of the excess that tells two systems apart
 there."""
 
+LEADERS = 2
+"""Of the effects that do not pass alone, so many are tried with each other one."""
+
 CONTENDERS, WITHIN = 4, 1.6
 """So many of the best, within this ratio of the least RMSE, are fitted again from other starts."""
 
@@ -89,7 +92,7 @@ class Selection:
             if found.chosen and len(self.adopted(current)) < MOST:
                 better = self._settle(self.bench.refitted(found.trials[found.chosen]))
             else:
-                better = self._exchanged(current) or current
+                better = self._exchanged(current) or self._paired(found) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
                 return self._named(current)
             current = better
@@ -139,18 +142,22 @@ class Selection:
         if better.rmse > MISFIT * self.floor and self.share(worse, better) < CLEARLY:
             return apart < better.rmse
         similar = apart < CLOSE * max(self.floor, one.rmse) and ratio < ALIKE and 1 / ratio < ALIKE
-        return similar and abs(gain) < CLEAR
+        # that a richer system is a little better is no evidence for it, however significant
+        return similar and (abs(gain) < CLEAR or len(better.values) > len(worse.values))
 
     def simplest(self, trials: Sequence[Trial]) -> Trial:
-        """Of the best and those tied with it, the one with fewest parameters, then alphabetically first; what a
-        model offers inside its state equation only where nothing around it does as well."""
-        best = min(trials, key=lambda trial: trial.cv_rmse)
-        alike = [trial for trial in trials if trial is best or self.tied(best, trial)]
-        return min(alike, key=self._plainness)
+        """Of the best and those tied with it, those with fewest parameters (what a model offers inside its state
+        equation only where nothing around it does as well); of these, of the best and those tied with it, the
+        alphabetically first."""
+        for key in (self._plainness, lambda trial: sorted(trial.names)):
+            best = min(trials, key=lambda trial: trial.cv_rmse)
+            alike = [trial for trial in trials if trial is best or self.tied(best, trial)]
+            least = min(map(key, alike))
+            trials = [trial for trial in alike if key(trial) == least]
+        return trials[0]
 
-    def _plainness(self, trial: Trial) -> tuple[bool, int, int, list[str]]:
-        inside = len(trial.names & set(self.bench.stack.model.offers))
-        return len(trial.at_bound) > 0, len(trial.values), inside, sorted(trial.names)
+    def _plainness(self, trial: Trial) -> list:
+        return [len(trial.at_bound) > 0, len(trial.values), len(trial.names & set(self.bench.stack.model.offers))]
 
     def _round(self, current: Trial) -> Round:
         trials = self._extensions(current)
@@ -164,6 +171,19 @@ class Selection:
             winner = self.simplest(list(passed.values()))
             chosen = next(name for name, trial in passed.items() if trial is winner)
         return Round(current, trials, tests, gains, chosen)
+
+    def _paired(self, found: Round) -> Trial | None:
+        """Two effects at once, where the model is wrong and no single one passes: what one of them leaves may hide
+        the other."""
+        current, count = found.current, len(self.candidates)
+        if current.rmse < MISFIT * self.floor or len(self.adopted(current)) + 2 > MOST:
+            return None
+        leaders = sorted(found.trials.values(), key=lambda trial: trial.cv_rmse)[:LEADERS]
+        pairs = [pair for leader in leaders for pair in self._extensions(leader).values()]
+        best = min(pairs, key=lambda trial: trial.cv_rmse, default=current)
+        if not self.needed(current, best, count * (count - 1) // 2) or self.share(current, best) < NAMED:
+            return None
+        return self._settle(self.bench.refitted(best))
 
     def _settle(self, current: Trial) -> Trial:
         """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
