@@ -28,7 +28,8 @@ class EddyCurrent(Effect):
 
     z = u - coefficient dy/dt acts in place of the input u, y = F[z] [1, 2]; z = u at the first sample. For a law
     of constant slope this is an input lag of coefficient times the slope; the steeper the law, the longer it lags.
-    Loops grow with frequency. `kernels.eddy_current` says how it is solved: second order in the sampling step.
+    Loops grow with frequency. `kernels.eddy_current` says how it is solved: second order in the sampling step. The
+    latent heat of a transformation, where the input is a temperature, is the same term under another name.
 
     The box is logarithmic and ends above the null 0, at a lag of a fiftieth of a sampling step over the mean slope.
 
