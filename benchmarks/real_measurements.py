@@ -296,7 +296,7 @@ def _summary(rows: Sequence[Mapping[str, str]]) -> Table:
             [
                 one["case"],
                 one["model"],
-                Cell(listed(one["effects"].split()) if one["effects"] else "none", "prose"),
+                Cell(_names(one), "prose"),
                 "yes" if one["hysteresis_needed"] == "True" else "no",
                 number(before, 3),
                 Cell(number(after, 3), "", strong=True),
@@ -317,6 +317,13 @@ def _summary(rows: Sequence[Mapping[str, str]]) -> Table:
         "Unit",
     ]
     return Table("RMSE on records that were not fitted", header, lines, note="The noise is estimated from the data.")
+
+
+def _names(one: Mapping[str, str]) -> str:
+    """The adopted effects, those that are tied with others marked."""
+    tied = {pair.partition(" or ")[0] for pair in one["ties"].split("; ")}
+    names = [f"{name} or its like" if name in tied else name for name in one["effects"].split()]
+    return listed(names) if names else "none"
 
 
 def _parameters(one: Mapping[str, str]) -> Table:
