@@ -119,7 +119,7 @@ def confusion(
         largest = max(counts.values(), default=1)
         for (row, column), count in counts.items():
             at = columns.index(column), rows.index(row)
-            right = row == column
+            right = column in row.split("|")
             colour = AFTER if right else BEFORE
             axes.scatter(*at, s=330 * count / largest, color=colour, alpha=0.35, linewidth=0, zorder=2)
             axes.annotate(str(count), at, ha="center", va="center", zorder=3)
