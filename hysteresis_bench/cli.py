@@ -120,9 +120,12 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
 @click.option("--open", "open_it", is_flag=True, help="Open the report in a browser.")
 def report(results: Path, open_it: bool) -> None:
     """Write the report of a results folder again."""
+    from hysteresis_bench.diagnosis.study import STUDY, is_diagnosis_study
     from hysteresis_bench.report import write_report
+    from hysteresis_bench.report.closing_page import write_closing_page
 
-    page = write_report(results)
+    told = results / STUDY
+    page = write_closing_page(results) if told.is_file() and is_diagnosis_study(told) else write_report(results)
     _say_path(plain_console(), "report", page)
     if open_it:
         click.launch(str(page))

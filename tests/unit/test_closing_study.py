@@ -164,3 +164,13 @@ def test_run_a_study_of_diagnosis_and_continue_it(tmp_path):
     assert (out / FOLDER / "clean.0.json").stat().st_mtime_ns == before
     file.write_text(TEXT.replace("seed = 1", "seed = 2"))
     assert CliRunner().invoke(main, arguments).exit_code != 0
+
+
+def test_the_command_writes_the_page_of_a_diagnosis_study_again(tmp_path):
+    (tmp_path / STUDY).write_text(TEXT)
+    (tmp_path / FOLDER).mkdir()
+    case = Case("clean", "bouc-wen", 0, "done", before=1.0, after=1.0, fresh=1.0, unfitted=1.0, seconds=1.0)
+    (tmp_path / FOLDER / "clean.0.json").write_text(json.dumps(asdict(case)))
+    ran = CliRunner().invoke(main, ["report", str(tmp_path)])
+    assert ran.exit_code == 0, ran.output
+    assert "something was claimed in 0 of 1" in (tmp_path / "report.html").read_text()
