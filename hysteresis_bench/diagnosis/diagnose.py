@@ -112,7 +112,7 @@ def diagnose(
             loud, floor = quieter, floor_of(ready.fitted, quieter)
             selection.floor = floor
             found = selection.run(found)
-        alone = not _follows(full.stack, found)
+        alone = not _follows(full, found)
         found = base if alone else found
         final = with_simplest_offset(selection, found)
         ties, rivals = ties_of(selection, found)
@@ -190,17 +190,15 @@ def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: S
         raise UserError("diagnose", faults)
 
 
-def _follows(stack: Stack, trial: Trial) -> bool:
+def _follows(bench: Bench, trial: Trial) -> bool:
     """Does the response to the input, without what is merely added to it, explain the output?"""
     names = trial.names - (set(OUTER) - {"record-offset"})
-    problem = stack.problem(names)
-    values = np.array([[trial.values[name]] for name in problem.space.names]).reshape(-1, 1)
-    added = stack.problem(trial.names)
-    whole = np.array([[trial.values[name]] for name in added.space.names]).reshape(-1, 1)
+    answering, own = bench.fitted(replace(trial, names=names))
+    whole, every = bench.fitted(trial)
     left = explained = 0.0
-    for record in stack.records:
-        response = problem.system.respond(record, values)[record.scored, 0]
-        error = record.measured - added.system.respond(record, whole)[record.scored, 0]
+    for record in bench.stack.records:
+        response = answering.respond(record, own[:, None])[record.scored, 0]
+        error = record.measured - whole.respond(record, every[:, None])[record.scored, 0]
         left += float(error @ error)
         explained += float(np.sum((response - response.mean()) ** 2))
     return explained > FOLLOWS / (1.0 - FOLLOWS) * left
@@ -250,14 +248,10 @@ def _advice(
     if not ties:
         return None
 
-    def fitted(trial: Trial) -> tuple[Any, NDArray]:
-        problem = bench.stack.problem(trial.names)
-        return problem.system, np.array([trial.values[name] for name in problem.space.names])
-
     first = ties[0].effect
     together = [(one, trial) for one, trial in zip(ties, rivals, strict=True) if one.effect == first]
     names = [first, *(one.rival for one, _ in together)]
-    return advise(fitted(found), [fitted(trial) for _, trial in together], records, floor, names)
+    return advise(bench.fitted(found), [bench.fitted(trial) for _, trial in together], records, floor, names)
 
 
 def _model(

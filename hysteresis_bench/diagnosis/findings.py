@@ -22,8 +22,7 @@ def ties_of(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[T
     for name in selection.adopted(found):
         for rival, trial in selection.alternatives(found, name).items():
             if selection.tied(found, trial):
-                apart = float(np.sqrt(np.mean((found.residuals - trial.residuals) ** 2)))
-                ties.append(tie(name, rival, apart))
+                ties.append(tie(name, rival, found.apart(trial)))
                 rivals.append(trial)
     return tuple(ties), rivals
 

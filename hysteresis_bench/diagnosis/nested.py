@@ -14,7 +14,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-import numpy as np
 from numpy.typing import NDArray
 
 from hysteresis_bench.diagnosis import coloured
@@ -46,8 +45,3 @@ def nested_test(smaller: Sequence[NDArray], larger: Sequence[NDArray], added: in
     statistic = (before - after) / added / (after / max(samples - free, 1))
     corrected = statistic * effective / (effective + 2.0 * free)
     return NestedTest(float(statistic), coloured.f_tail(corrected, added, effective - free), added)
-
-
-def rms(parts: Sequence[NDArray]) -> float:
-    """Over all records together."""
-    return float(np.sqrt(sum(float(part @ part) for part in parts) / sum(part.size for part in parts)))

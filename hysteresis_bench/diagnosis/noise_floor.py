@@ -27,13 +27,12 @@ def without_hum(bench: Bench, trial: Trial) -> tuple[Record, ...]:
     """The records without the periodic disturbance that was found."""
     if HUM not in trial.names:
         return bench.stack.records
-    problem = bench.stack.problem(trial.names)
     silent = {f"{HUM}.{p.name}": p.null for p in bench.stack.effect(HUM).parameters if p.null is not None}
-    both = np.array(
-        [[trial.values[name], silent.get(name, trial.values[name])] for name in problem.space.names], dtype=float
-    )
+    system, loud = bench.fitted(trial)
+    _, still = bench.fitted(replace(trial, values={**trial.values, **silent}))
+    both = np.column_stack([loud, still])
     quiet = []
     for record in bench.stack.records:
-        heard, unheard = problem.system.simulate(record.signal, both).T
+        heard, unheard = system.simulate(record.signal, both).T
         quiet.append(replace(record, output=record.output - (heard - unheard)))
     return tuple(quiet)

@@ -39,9 +39,8 @@ def passes_to_close(
         records = tuple(record.settled(passes) for record in dataset.fitted)
         bench = Bench(Stack(model, thinned(records), tuple(effects), bounds, fixed), seed)
         bare = bench.bare(frozenset({"record-offset"}))
-        problem = bench.stack.problem(bare.names)
-        values = np.array([bare.values[name] for name in problem.space.names])
-        if passes >= MOST_REPEATS or gap_after(problem.system, records, values, passes) < CLOSED:
+        system, values = bench.fitted(bare)
+        if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
             return passes
         passes *= 2
 

@@ -137,7 +137,7 @@ class Selection:
         """
         gain = advantage(one.left_out, other.left_out, self.bench.blocks)
         ratio = other.cv_rmse / one.cv_rmse if one.cv_rmse > 0 else 1.0
-        apart = float(np.sqrt(np.mean((one.residuals - other.residuals) ** 2)))
+        apart = one.apart(other)
         worse, better = (one, other) if one.rmse > other.rmse else (other, one)
         if better.rmse > MISFIT * self.floor and self.share(worse, better) < CLEARLY:
             return apart < better.rmse

@@ -11,6 +11,7 @@ from numpy.random import default_rng
 from numpy.typing import NDArray
 
 from hysteresis_bench import registry
+from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.cross_validation import Blocks, cut, left_out_errors
 from hysteresis_bench.diagnosis.fit_system import descend, errors, jacobian, point_of, split, values_of
 from hysteresis_bench.diagnosis.nested import SEARCHED, NestedTest, nested_test
@@ -60,6 +61,10 @@ class Trial:
     def cv_rmse(self) -> float:
         return float(np.sqrt(np.mean(self.left_out**2)))
 
+    def apart(self, other: Trial) -> float:
+        """RMS difference of the two fitted outputs, unit of the output."""
+        return float(np.sqrt(np.mean((self.residuals - other.residuals) ** 2)))
+
 
 @dataclass(frozen=True, eq=False)
 class Bench:
@@ -71,6 +76,11 @@ class Bench:
     @cached_property
     def blocks(self) -> Blocks:
         return cut(self.stack.records)
+
+    def fitted(self, trial: Trial) -> tuple[System, NDArray]:
+        """The system of a trial, and its values (dimension,) in units."""
+        problem = self.stack.problem(trial.names)
+        return problem.system, np.array([trial.values[name] for name in problem.space.names])
 
     def bare(self, names: frozenset[str]) -> Trial:
         """A global search, as nothing is known yet."""
