@@ -10,8 +10,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.free_energy import magnetization, quadrature
 
 SAMPLES, SWARM = 2000, 48
@@ -19,7 +19,7 @@ COERCIVE, SPREAD, INTERACTION = 1.0, 0.25, 0.6
 
 
 @njit(error_model="numpy", fastmath={"contract", "reassoc"})
-def relays(field: NDArray, coercive: NDArray, density: NDArray, interaction: NDArray, weight: NDArray) -> NDArray:
+def relays(field: Array, coercive: Array, density: Array, interaction: Array, weight: Array) -> Array:
     """Equations (1) to (3) relay by relay, the inner loop vectorised: (samples,)."""
     rows, columns = coercive.size, interaction.size
     signed = np.empty((rows, columns))
@@ -42,7 +42,7 @@ def relays(field: NDArray, coercive: NDArray, density: NDArray, interaction: NDA
     return magnetized
 
 
-def grid(rows: int, columns: int) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+def grid(rows: int, columns: int) -> tuple[Array, Array, Array, Array]:
     """H_c and its density, H_I and its density, each normalised to 1."""
     offsets = np.linspace(-3.5, 3.5, rows)
     density = np.exp(-(offsets**2))
@@ -52,7 +52,7 @@ def grid(rows: int, columns: int) -> tuple[NDArray, NDArray, NDArray, NDArray]:
     return coercive, density / density.sum(), interaction, weight / weight.sum()
 
 
-def seconds(run: Callable[[], NDArray], repeats: int) -> float:
+def seconds(run: Callable[[], Array], repeats: int) -> float:
     """CPU time of the fastest of some runs, after one that compiles."""
     run()
     fastest = np.inf
@@ -72,7 +72,7 @@ def rows(repeats: int = 7) -> Iterator[dict[str, object]]:
     swarm[:, 0] = COERCIVE, SPREAD, INTERACTION
     zero, one = np.zeros(SWARM), np.ones(SWARM)
 
-    def played(nodes: int, span: float = 3.0) -> NDArray:
+    def played(nodes: int, span: float = 3.0) -> Array:
         return magnetization(field[:, None], zero, one, *swarm, *quadrature("trapezoid", nodes, span))
 
     exact = played(4001, 5.0)

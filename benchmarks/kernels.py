@@ -20,15 +20,15 @@ import bouc_wen
 import free_energy
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 from peers import TRIALS
 from rich.console import Console
 from rich.table import Table
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.loss import LOSSES
-from hysteresis_bench.objective import BudgetSpent, Objective, Problem
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import BudgetSpent, Objective, Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
@@ -69,9 +69,9 @@ class Entry:
 
     name: str
     model: Model
-    loop: Callable[..., NDArray]
+    loop: Callable[..., Array]
     truth: Mapping[str, float]
-    drive: NDArray
+    drive: Array
 
 
 CYCLES = 60.0 * np.sin(2 * np.pi * 3 * np.linspace(0.0, 1.0, SAMPLES))
@@ -82,7 +82,7 @@ ENTRIES = (
 )
 
 
-def compiled(loop: Callable[..., NDArray]) -> Callable[..., NDArray]:
+def compiled(loop: Callable[..., Array]) -> Callable[..., Array]:
     """A partial of a plain-Python loop, compiled, with its keywords bound."""
     function, keywords = (loop.func, loop.keywords) if isinstance(loop, partial) else (loop, {})
     return partial(njit(error_model="numpy")(function), **keywords)
@@ -141,7 +141,7 @@ def trial_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
         except BudgetSpent:
             return
 
-    def loss(point: NDArray) -> float:
+    def loss(point: Array) -> float:
         values = problem.space.from_unit(point[:, None])[:, 0]
         error = fast(entry.drive, *values) - measured
         with np.errstate(over="ignore", invalid="ignore"):

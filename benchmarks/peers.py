@@ -6,13 +6,14 @@ from collections.abc import Callable
 from importlib.util import find_spec
 
 import numpy as np
-from numpy.typing import NDArray
 
-Trial = Callable[[Callable[[NDArray], float], int, int, int], None]
+from hysteresis_bench.arrays import Array
+
+Trial = Callable[[Callable[[Array], float], int, int, int], None]
 """trial(loss, dimension, particles, iterations): minimise loss(point) on the unit box."""
 
 
-def pyswarms_trial(loss: Callable[[NDArray], float], dimension: int, particles: int, iterations: int) -> None:
+def pyswarms_trial(loss: Callable[[Array], float], dimension: int, particles: int, iterations: int) -> None:
     import logging
 
     import pyswarms
@@ -24,13 +25,13 @@ def pyswarms_trial(loss: Callable[[NDArray], float], dimension: int, particles: 
     swarm.optimize(lambda points: np.array([loss(point) for point in points]), iterations, verbose=False)
 
 
-def pymoo_trial(loss: Callable[[NDArray], float], dimension: int, particles: int, iterations: int) -> None:
+def pymoo_trial(loss: Callable[[Array], float], dimension: int, particles: int, iterations: int) -> None:
     from pymoo.algorithms.soo.nonconvex.pso import PSO
     from pymoo.core.problem import ElementwiseProblem
     from pymoo.optimize import minimize
 
     class Scalar(ElementwiseProblem):
-        def _evaluate(self, x: NDArray, out: dict[str, float], *args: object, **kwargs: object) -> None:
+        def _evaluate(self, x: Array, out: dict[str, float], *args: object, **kwargs: object) -> None:
             out["F"] = loss(x)
 
     minimize(Scalar(n_var=dimension, n_obj=1, xl=0.0, xu=1.0), PSO(particles), ("n_gen", iterations), seed=1)

@@ -22,9 +22,9 @@ import numpy as np
 
 from hysteresis_bench import load
 from hysteresis_bench.diagnosis.diagnose import diagnose
-from hysteresis_bench.diagnosis.result import Diagnosis
-from hysteresis_bench.report.diagnosis_figures import waterfall
-from hysteresis_bench.report.page import NONE, Cell, Table, listed, number, render
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.report.diagnosis.figures import waterfall
+from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render
 from hysteresis_bench.signals import Dataset, Record
 
 ROOT = Path(__file__).parent.parent

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from hysteresis_bench.fitting import Fit
-    from hysteresis_bench.model_file import FittedModel
+    from hysteresis_bench.fit.fitting import Fit
+    from hysteresis_bench.fit.model_file import FittedModel
     from hysteresis_bench.signals import Dataset
     from hysteresis_bench.study.results import Results
 
@@ -50,7 +50,7 @@ def _lasts(record: Any) -> float:
 
 def fit(dataset: Dataset, model: str, effects: Sequence[str] = (), **options: Any) -> Fit:
     """Fit a registered model to a data set; see hysteresis_bench.fitting.fit_records for the options."""
-    from hysteresis_bench.fitting import fit_records
+    from hysteresis_bench.fit.fitting import fit_records
 
     return fit_records(dataset, model, effects, **options)
 
@@ -61,7 +61,7 @@ def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
     model : a fitted model, or the path of its model.json
     """
     from hysteresis_bench.data_files import read_data
-    from hysteresis_bench.model_file import FittedModel, read_model
+    from hysteresis_bench.fit.model_file import FittedModel, read_model
 
     fitted = model if isinstance(model, FittedModel) else read_model(Path(model))
     return fitted.predict(read_data([Path(file) for file in files], output_needed=False))
@@ -69,9 +69,9 @@ def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
 
 def run_study(path: Path | str, **options: Any) -> Results:
     """Run or continue a study and read its results; see hysteresis_bench.study.run.run_study for the options."""
-    from hysteresis_bench.commands.closing import close_the_loop
     from hysteresis_bench.control.comparison import scores_on_rig
     from hysteresis_bench.study.results import read_results
     from hysteresis_bench.study.run import run_study as run
+    from hysteresis_bench.study_diagnosis import close_the_loop
 
     return read_results(run(path, closed_loop=scores_on_rig, closing=close_the_loop, **options))

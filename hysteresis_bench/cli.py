@@ -62,12 +62,12 @@ def main() -> None:
 def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
     from hysteresis_bench import run_study
-    from hysteresis_bench.diagnosis.study import is_diagnosis_study
-    from hysteresis_bench.progress import progress_bar
-    from hysteresis_bench.report import write_report
-    from hysteresis_bench.report.closing_section import closing_in_words
-    from hysteresis_bench.report.console import print_summary
-    from hysteresis_bench.report.published import check_published_beside
+    from hysteresis_bench.commands.progress import progress_bar
+    from hysteresis_bench.diagnosis_study.run import is_diagnosis_study
+    from hysteresis_bench.report.paper.published import check_published_beside
+    from hysteresis_bench.report.study import write_report
+    from hysteresis_bench.report.study.closing_section import closing_in_words
+    from hysteresis_bench.report.study.console import print_summary
     from hysteresis_bench.study.results import FINISHED
 
     console = plain_console()
@@ -95,8 +95,8 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
 
 def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console) -> int:
     """A study of diagnosis; returns the exit code."""
-    from hysteresis_bench.diagnosis.study import Told, read_cases, run_diagnosis_study
-    from hysteresis_bench.report.closing_page import told, write_closing_page
+    from hysteresis_bench.diagnosis_study.run import Told, read_cases, run_diagnosis_study
+    from hysteresis_bench.report.diagnosis_study.page import told, write_closing_page
 
     def tell(step: Told) -> None:
         if step.case:
@@ -120,9 +120,9 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
 @click.option("--open", "open_it", is_flag=True, help="Open the report in a browser.")
 def report(results: Path, open_it: bool) -> None:
     """Write the report of a results folder again."""
-    from hysteresis_bench.diagnosis.study import STUDY, is_diagnosis_study
-    from hysteresis_bench.report import write_report
-    from hysteresis_bench.report.closing_page import write_closing_page
+    from hysteresis_bench.diagnosis_study.run import STUDY, is_diagnosis_study
+    from hysteresis_bench.report.diagnosis_study.page import write_closing_page
+    from hysteresis_bench.report.study import write_report
 
     told = results / STUDY
     page = write_closing_page(results) if told.is_file() and is_diagnosis_study(told) else write_report(results)
@@ -152,7 +152,7 @@ def predict(model: Path, data: Sequence[Path], out: Path) -> None:
 def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
     """Take data from a virtual RIG (see `list rigs`)."""
     from hysteresis_bench.data_files import write_csv
-    from hysteresis_bench.identify import generator
+    from hysteresis_bench.fit.search import generator
 
     faults = registry.faults("rigs", rig, {})
     if faults:

@@ -10,8 +10,8 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -45,26 +45,26 @@ class System:
         """The free parameters with boxes that suit these records."""
         return self._free([part.box(records) for _, part in self._stack])
 
-    def simulate(self, signal: Signal, values: NDArray) -> NDArray:
+    def simulate(self, signal: Signal, values: Array) -> Array:
         """values : (dimension, swarm), in units -> (samples, swarm)."""
         model_values, *effect_values = self._named(values)
 
-        def run(inner_signal: Signal) -> NDArray:
+        def run(inner_signal: Signal) -> Array:
             return self.model.simulate(inner_signal, model_values)
 
-        wrapped: Callable[[Signal], NDArray] = run
+        wrapped: Callable[[Signal], Array] = run
         for (_, effect), p in zip(self.effects, effect_values, strict=True):
             wrapped = _around(effect, wrapped, p)
         return wrapped(signal)
 
-    def respond(self, record: Record, values: NDArray) -> NDArray:
+    def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
         simulated = self.simulate(record.signal, values)
         for _, effect in self.effects:
             simulated = effect.adjust(simulated, record)
         return simulated
 
-    def offsets(self, record: Record, values: NDArray) -> list[NDArray]:
+    def offsets(self, record: Record, values: Array) -> list[Array]:
         """The constant that each effect adds to a record's output, (swarm,) an effect, in their order."""
         simulated = self.simulate(record.signal, values)
         found = []
@@ -99,7 +99,7 @@ class System:
         return [row for row, name in enumerate(self._names) if name not in self.fixed]
 
     @cached_property
-    def _fixed_column(self) -> NDArray:
+    def _fixed_column(self) -> Array:
         return np.array([[self.fixed.get(name, np.nan)] for name in self._names])
 
     @cached_property
@@ -111,7 +111,7 @@ class System:
             if name in self.model.offers
         }
 
-    def _named(self, values: NDArray) -> list[Any]:
+    def _named(self, values: Array) -> list[Any]:
         """The values of the model and of every effect, a namedtuple of (swarm,) arrays each."""
         full = self._with_fixed(values)
         found: list[Any] = [named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)]
@@ -119,7 +119,7 @@ class System:
             found[0] = self._model_values(*found[0], *(found[position] for position in self._inside.values()))
         return found
 
-    def _with_fixed(self, values: NDArray) -> NDArray:
+    def _with_fixed(self, values: Array) -> Array:
         if not self.fixed:
             return values
         full = np.repeat(self._fixed_column, values.shape[1], axis=1)
@@ -135,5 +135,5 @@ class System:
         return tuple(parameter for parameter in named if parameter.name not in self.fixed)
 
 
-def _around(effect: Effect, inner: Callable[[Signal], NDArray], p: Any) -> Callable[[Signal], NDArray]:
+def _around(effect: Effect, inner: Callable[[Signal], Array], p: Any) -> Callable[[Signal], Array]:
     return lambda signal: effect.apply(inner, signal, p)

@@ -16,12 +16,12 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Dataset, Record, Signal
 
-Start = Callable[[int], NDArray]
+Start = Callable[[int], Array]
 """start(particles) -> (dimension, particles): the first points, shared by all optimizers of a trial.
 The first k columns do not depend on how many are asked for."""
 
@@ -38,7 +38,7 @@ class Model(ABC):
     elsewhere p has no such field."""
 
     @abstractmethod
-    def simulate(self, signal: Signal, p: Any) -> NDArray:
+    def simulate(self, signal: Signal, p: Any) -> Array:
         """signal.input : (samples, 1) or (samples, swarm); p : namedtuple of (swarm,) arrays, one a
         parameter, in units -> (samples, swarm). Starts from the model's rest state at the first sample.
         Never NaN where the parameters lie in the box; never changes its arguments."""
@@ -58,7 +58,7 @@ class Effect(ABC):
     parameters: ClassVar[tuple[Parameter, ...]]
 
     @abstractmethod
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         """inner(signal) runs what is wrapped -> (samples, swarm); change the signal, the output, or
         both. p as in Model.simulate."""
 
@@ -70,15 +70,15 @@ class Effect(ABC):
         """Why the effect cannot be fitted to these records, or an empty string."""
         return ""
 
-    def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+    def adjust(self, simulated: Array, record: Record) -> Array:
         """The output with what the effect estimates anew on every record; simulated : (samples, swarm)."""
         return simulated
 
-    def offset(self, simulated: NDArray, record: Record, p: Any) -> NDArray:
+    def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         """The constant that the effect adds to this record's output, (swarm,): relative errors leave it out."""
         return np.zeros(simulated.shape[1])
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[NDArray]) -> list[dict[str, float]]:
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
         """Where a fit may begin for the effect's own parameters, by name; residuals : measured minus simulated,
         (scored samples,) a record. Empty where the box says enough."""
         return []
@@ -104,14 +104,14 @@ class Objective(Protocol):
     @property
     def evaluations(self) -> int: ...
 
-    def __call__(self, point: NDArray) -> float:
+    def __call__(self, point: Array) -> float:
         """point : (dimension,) -> loss. One evaluation."""
 
-    def many(self, points: NDArray) -> NDArray:
+    def many(self, points: Array) -> Array:
         """points : (dimension, swarm) -> (swarm,) losses. As many evaluations as columns: the ones that
         the budget still affords are scored before BudgetSpent is raised."""
 
-    def residuals(self, point: NDArray) -> NDArray:
+    def residuals(self, point: Array) -> Array:
         """point : (dimension,) -> (scored samples,), simulated minus measured. One evaluation."""
 
 

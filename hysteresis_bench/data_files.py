@@ -11,8 +11,8 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.signals import Dataset, Record, joined
 
@@ -128,7 +128,7 @@ def _number_faults(frame: pd.DataFrame, names: Sequence[str]) -> list[str]:
     return faults
 
 
-def _record_faults(numbers: dict[str, NDArray], rows: NDArray, lines: pd.Index, name: str, to_fit: bool) -> list[str]:
+def _record_faults(numbers: dict[str, Array], rows: Array, lines: pd.Index, name: str, to_fit: bool) -> list[str]:
     if rows.size < 2:
         return [f"record {name} has {rows.size} sample; at least 2 are needed."]
     faults = []

@@ -8,7 +8,8 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 Scaling = Literal["linear", "log"]
 
@@ -79,7 +80,7 @@ class Space:
         return tuple(parameter.name for parameter in self.parameters)
 
     @cached_property
-    def _edges(self) -> tuple[NDArray, NDArray, NDArray]:
+    def _edges(self) -> tuple[Array, Array, Array]:
         logarithmic = np.array([p.scaling == "log" for p in self.parameters])[:, None]
         lower = np.array([p.lower for p in self.parameters], dtype=float)[:, None]
         upper = np.array([p.upper for p in self.parameters], dtype=float)[:, None]
@@ -87,13 +88,13 @@ class Space:
         high = np.where(logarithmic, np.log(np.where(logarithmic, upper, 1.0)), upper)
         return low, high - low, logarithmic
 
-    def from_unit(self, points: NDArray) -> NDArray:
+    def from_unit(self, points: Array) -> Array:
         """Unit box to physical values. points : (dimension, swarm) in [0, 1] -> same shape, in units."""
         low, span, logarithmic = self._edges
         values = low + span * points
         return np.where(logarithmic, np.exp(np.where(logarithmic, values, 0.0)), values)
 
-    def to_unit(self, values: NDArray) -> NDArray:
+    def to_unit(self, values: Array) -> Array:
         """Physical values to the unit box, (dimension, swarm); values outside the box land outside it."""
         low, span, logarithmic = self._edges
         scaled = np.where(logarithmic, np.log(np.where(logarithmic, values, 1.0)), values)

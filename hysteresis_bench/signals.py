@@ -8,7 +8,8 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 UNITLESS: Mapping[str, str] = MappingProxyType({"time": "s", "input": "1", "output": "1"})
 INDEX = "sample"
@@ -24,12 +25,12 @@ class Signal:
     columns : further measured columns by name, (samples,) each, such as temperature
     """
 
-    time: NDArray
-    input: NDArray
+    time: Array
+    input: Array
     timed: bool = True
-    columns: Mapping[str, NDArray] = field(default_factory=dict)
+    columns: Mapping[str, Array] = field(default_factory=dict)
 
-    def with_input(self, values: NDArray) -> Signal:
+    def with_input(self, values: Array) -> Signal:
         """The same signal with another input, (samples, 1) or (samples, swarm)."""
         return replace(self, input=np.ascontiguousarray(values, dtype=float))
 
@@ -43,12 +44,12 @@ class Record:
     history : leading samples that are simulated but not scored
     """
 
-    time: NDArray
-    input: NDArray
-    output: NDArray | None
+    time: Array
+    input: Array
+    output: Array | None
     name: str = "record"
     units: Mapping[str, str] = field(default_factory=lambda: UNITLESS)
-    columns: Mapping[str, NDArray] = field(default_factory=dict)
+    columns: Mapping[str, Array] = field(default_factory=dict)
     history: int = 0
 
     @property
@@ -64,13 +65,13 @@ class Record:
         return slice(self.history, None)
 
     @property
-    def measured(self) -> NDArray:
+    def measured(self) -> Array:
         """The scored samples of the output. Raises ValueError where there is no output."""
         if self.output is None:
             raise ValueError(f"record {self.name} has no output")
         return self.output[self.scored]
 
-    def take(self, samples: slice | NDArray, name: str | None = None) -> Record:
+    def take(self, samples: slice | Array, name: str | None = None) -> Record:
         """A part of the record, as a record of its own; its history is what it keeps of ours."""
         index = np.arange(self.time.size)[samples]
         return replace(
@@ -93,7 +94,7 @@ class Record:
         period = self.time[-1] - self.time[0] + float(np.median(np.diff(self.time)))
         copies = repeats + 1
 
-        def tiled(values: NDArray) -> NDArray:
+        def tiled(values: Array) -> Array:
             return np.tile(values, copies)
 
         shift = np.repeat(np.arange(-repeats, 1) * period, self.time.size)

@@ -13,8 +13,8 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.loss import LOSSES
-from hysteresis_bench.objective import Problem
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 

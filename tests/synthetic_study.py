@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench.objective import Trace
+from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STUDY, TRIALS
 from hysteresis_bench.study.store import Outcome, Store
 

@@ -10,7 +10,7 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from hysteresis_bench.model_file import FittedModel
+    from hysteresis_bench.fit.model_file import FittedModel
 
 existing_file = click.Path(path_type=Path)
 FEED_FORWARD = "feed-forward.csv"
@@ -39,7 +39,7 @@ def control(
     from rich.console import Console
 
     from hysteresis_bench.errors import UserError
-    from hysteresis_bench.model_file import read_model
+    from hysteresis_bench.fit.model_file import read_model
 
     if rig is None and reference is None:
         raise UserError("control", "give --rig NAME to compare controllers, or --reference CSV for a feed-forward.")
@@ -88,7 +88,7 @@ def _compare(fitted: FittedModel, name: str, rig: str, options: dict, folder: Pa
     from hysteresis_bench import registry
     from hysteresis_bench.control.comparison import compare
     from hysteresis_bench.errors import UserError
-    from hysteresis_bench.report.control_page import print_control, write_control
+    from hysteresis_bench.report.control.page import print_control, write_control
 
     faults = registry.faults("rigs", rig, {})
     if faults:

@@ -11,7 +11,7 @@ import click
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from hysteresis_bench.diagnosis.result import Diagnosis
+    from hysteresis_bench.diagnosis.findings.result import Diagnosis
 
 SHOWN = 8
 """Tests and sentences of a kind that still fit a terminal; the files have all."""
@@ -49,8 +49,8 @@ def diagnose(
 
     from hysteresis_bench import load
     from hysteresis_bench.diagnosis.diagnose import diagnose as find
-    from hysteresis_bench.diagnosis.diagnosis_file import write_diagnosis
-    from hysteresis_bench.report.diagnosis_page import write_diagnosis_page
+    from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+    from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
     dataset = load(*data, held_out=held_out, skip=skip)
     found = find(

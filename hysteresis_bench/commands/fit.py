@@ -49,7 +49,7 @@ def fit(
     """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
     from hysteresis_bench import fit as fit_model
     from hysteresis_bench import load
-    from hysteresis_bench.report.fit_folder import print_fit, write_fit
+    from hysteresis_bench.report.fit.folder import print_fit, write_fit
 
     dataset = load(*data, held_out=held_out, skip=skip)
     fitted = fit_model(

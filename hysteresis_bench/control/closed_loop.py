@@ -7,8 +7,8 @@ from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.compensation import Compensation, Series, along
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.references import Reference
@@ -59,13 +59,13 @@ class Run:
     """
 
     reference: Reference
-    displacement: NDArray
-    measured: NDArray
-    voltage: NDArray
-    cut: NDArray
+    displacement: Array
+    measured: Array
+    voltage: Array
+    cut: Array
 
     @property
-    def error(self) -> NDArray:
+    def error(self) -> Array:
         """Reference minus true displacement, scored samples."""
         return (self.reference.position - self.displacement)[self.reference.history :]
 
@@ -118,5 +118,5 @@ def track(
     return Run(reference, displacement, measured, voltage, cut)
 
 
-def _rms(values: NDArray) -> float:
+def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(np.square(values))))

@@ -16,8 +16,8 @@ from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
-from hysteresis_bench.identify import generator
-from hysteresis_bench.model_file import FittedModel
+from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.search import generator
 
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours

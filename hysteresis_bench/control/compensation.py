@@ -16,8 +16,8 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.inverse import Point
 
@@ -57,8 +57,8 @@ class AlongReference:
     """The inverse along the v that the reference needs; nominal, input : (samples,) that v and its model input."""
 
     forward: FeedForward
-    nominal: NDArray
-    input: NDArray
+    nominal: Array
+    input: Array
 
     def start(self) -> None:
         return None
@@ -72,6 +72,6 @@ class AlongReference:
         return None, Applied(voltage, planned + (self.forward.model_input(voltage) - u) * slope if cut else v, cut)
 
 
-def along(forward: FeedForward, nominal: NDArray) -> AlongReference:
+def along(forward: FeedForward, nominal: Array) -> AlongReference:
     """The inverse run once along the v of the reference, (samples,)."""
     return AlongReference(forward, nominal, forward.hysteresis.input_for(np.asarray(nominal, dtype=float)))

@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.control.inverse import BoucWenInverse, Point
-from hysteresis_bench.model_file import FittedModel, Preparation
+from hysteresis_bench.fit.model_file import FittedModel, Preparation
 from hysteresis_bench.signals import Record
 
 AS_IT_IS = Preparation()
@@ -92,7 +92,7 @@ class FeedForward:
         voltage = float(np.clip(wanted, -limit, limit))
         return self.hysteresis.moved(point, self.model_input(voltage)), voltage, True
 
-    def input_for(self, position: NDArray, limit: float = np.inf) -> tuple[NDArray, NDArray]:
+    def input_for(self, position: Array, limit: float = np.inf) -> tuple[Array, Array]:
         """The actuator's input that makes the static model follow a displacement, and where the limit cut it.
 
         position : (samples,) in the model's output unit -> two (samples,): input, and True where it is cut.

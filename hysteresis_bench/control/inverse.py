@@ -16,7 +16,8 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 LEAST_DISSIPATION = 1e-4
 """Least beta / (beta + gamma). A reversal magnifies a difference of h by about (beta + gamma) / (2 beta); at beta = 0
@@ -80,7 +81,7 @@ class BoucWenInverse:
     def _parameters(self) -> tuple[float, float, float, float, float]:
         return self.alpha, self.beta, self.gamma, self.d, float(self.n)
 
-    def input_for(self, v: NDArray) -> NDArray:
+    def input_for(self, v: Array) -> Array:
         """The input whose output is v, from h = 0 at the first sample; v : (samples,) -> (samples,)."""
         from hysteresis_bench.kernels.bouc_wen_inverse import invert
 

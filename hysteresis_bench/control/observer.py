@@ -14,8 +14,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.feed_forward import LinearSection
 
 
@@ -26,15 +26,15 @@ class Observer:
     transition : (3, 3), drive : (3,), of one sample with v held;  correction : (3,), times the innovation
     """
 
-    transition: NDArray
-    drive: NDArray
-    correction: NDArray
+    transition: Array
+    drive: Array
+    correction: Array
 
-    def corrected(self, predicted: NDArray, measured: float) -> NDArray:
+    def corrected(self, predicted: Array, measured: float) -> Array:
         """The estimate once the reading is known."""
         return predicted + self.correction * (measured - predicted[0])
 
-    def predicted(self, estimate: NDArray, v: float) -> NDArray:
+    def predicted(self, estimate: Array, v: float) -> Array:
         """The estimate one sample later, v held."""
         return self.transition @ estimate + self.drive * v
 

@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.errors import UserError, nearest
 
 FADE_IN = 0.2  # s
@@ -26,17 +26,17 @@ class Reference:
     """A wanted output over time, both (samples,); the first `history` samples are followed, not scored."""
 
     name: str
-    time: NDArray
-    position: NDArray
+    time: Array
+    position: Array
     history: int = 0
 
     @cached_property
-    def velocity(self) -> NDArray:
+    def velocity(self) -> Array:
         """By central differences."""
         return np.gradient(self.position, self.time)
 
     @cached_property
-    def acceleration(self) -> NDArray:
+    def acceleration(self) -> Array:
         """By central differences of the positions either side."""
         step = float(self.time[1] - self.time[0])
         inner = np.diff(self.position, 2) / step**2
@@ -52,13 +52,13 @@ class Reference:
 def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]:
     """The six signals; amplitude in the output's unit, rate in samples a second."""
 
-    def made(name: str, duration: float, shape: Callable[[NDArray], NDArray], fade_in: float = 0.0) -> Reference:
+    def made(name: str, duration: float, shape: Callable[[Array], Array], fade_in: float = 0.0) -> Reference:
         time = np.arange(round((duration + fade_in) * rate)) / rate
         share = np.clip(time / fade_in, 0.0, 1.0) if fade_in else np.ones(time.size)
         smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)  # no jump in velocity or acceleration
         return Reference(name, time, amplitude * smooth * shape(time), round(fade_in * rate))
 
-    def sine(frequency: float) -> Callable[[NDArray], NDArray]:
+    def sine(frequency: float) -> Callable[[Array], Array]:
         return lambda time: np.sin(2.0 * np.pi * frequency * time)
 
     return (
@@ -71,7 +71,7 @@ def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]
     )
 
 
-def read_trajectory(path: Path) -> tuple[NDArray, NDArray]:
+def read_trajectory(path: Path) -> tuple[Array, Array]:
     """Time and wanted output from a CSV with the columns `time` and `output` (or `reference`), units in brackets.
 
     Raises UserError naming file, row and column.

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.closed_loop import Target
 from hysteresis_bench.control.feed_forward import LinearSection
 from hysteresis_bench.control.observer import Observer
@@ -43,10 +43,10 @@ class SlidingMode:
     def nominal(self, wanted: Target) -> Any:
         return self.linear.driven(*wanted)
 
-    def start(self) -> NDArray:
+    def start(self) -> Array:
         return np.zeros(3)
 
-    def command(self, state: NDArray, target: Target, measured: float) -> tuple[float, NDArray]:
+    def command(self, state: Array, target: Target, measured: float) -> tuple[float, Array]:
         """v, and the corrected estimate."""
         estimate = self.observer.corrected(state, measured)
         x1, x2 = float(estimate[0]), float(estimate[1])
@@ -62,7 +62,7 @@ class SlidingMode:
         ) / self.linear.b  # [1] (15)
         return v, estimate
 
-    def applied(self, state: NDArray, v: float, cut: bool) -> NDArray:
+    def applied(self, state: Array, v: float, cut: bool) -> Array:
         """The prediction of the next sample, from the v that really went out."""
         return self.observer.predicted(state, v)
 

@@ -19,8 +19,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.feed_forward import LinearSection
 from hysteresis_bench.control.observer import observer
 
@@ -89,7 +89,7 @@ def tune_pi(linear: LinearSection | None, interval: float) -> PiTuning:
     return best
 
 
-def sliding_mode_loop(linear: LinearSection, bandwidth: float, interval: float) -> NDArray:
+def sliding_mode_loop(linear: LinearSection, bandwidth: float, interval: float) -> Array:
     """Loop transfer of (15) inside its boundary layer, C and slope both `bandwidth`, opened at v."""
     watching = observer(linear, bandwidth, interval)
     feedback = np.array([bandwidth**2 - linear.stiffness, 2.0 * bandwidth - linear.damping, 0.0]) / linear.b
@@ -104,16 +104,16 @@ def sliding_mode_loop(linear: LinearSection, bandwidth: float, interval: float) 
     return law * _plant(linear, interval)
 
 
-def _frequencies(interval: float) -> NDArray:
+def _frequencies(interval: float) -> Array:
     """rad/s, up to half the sampling rate."""
     return np.geomspace(1e-4, 1.0, 600) * np.pi / interval
 
 
-def _circle(interval: float) -> NDArray:
+def _circle(interval: float) -> Array:
     return np.exp(1j * _frequencies(interval) * interval)
 
 
-def _plant(linear: LinearSection, interval: float) -> NDArray:
+def _plant(linear: LinearSection, interval: float) -> Array:
     """The linear section behind a hold and the spare lag."""
     s = 1j * _frequencies(interval)
     hold = np.exp(-0.5 * s * interval) * np.sinc(np.imag(s) * interval / (2.0 * np.pi))
@@ -121,5 +121,5 @@ def _plant(linear: LinearSection, interval: float) -> NDArray:
     return linear.b / (s**2 + linear.damping * s + linear.stiffness) * hold * lag
 
 
-def _peak(loop: NDArray) -> float:
+def _peak(loop: Array) -> float:
     return float(np.max(1.0 / np.abs(1.0 + loop)))

@@ -9,15 +9,15 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
 from hysteresis_bench import registry
-from hysteresis_bench.accuracy import accuracy
-from hysteresis_bench.diagnosis.advice import Advice, advise
-from hysteresis_bench.diagnosis.crew import Crew
-from hysteresis_bench.diagnosis.description import NAME as DESCRIPTION
-from hysteresis_bench.diagnosis.description import accepted
-from hysteresis_bench.diagnosis.findings import (
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.memory import memory
+from hysteresis_bench.diagnosis.evidence.noise import noise, pooled_noise
+from hysteresis_bench.diagnosis.evidence.noise_floor import floor_of, without_hum
+from hysteresis_bench.diagnosis.evidence.residual_tests import residual_tests
+from hysteresis_bench.diagnosis.findings.advice import Advice, advise
+from hysteresis_bench.diagnosis.findings.candidates import (
     candidate_rows,
     description_row,
     in_order,
@@ -25,27 +25,27 @@ from hysteresis_bench.diagnosis.findings import (
     ties_of,
     waterfall_of,
 )
-from hysteresis_bench.diagnosis.fit_system import split
-from hysteresis_bench.diagnosis.memory import memory
-from hysteresis_bench.diagnosis.noise import noise, pooled_noise
-from hysteresis_bench.diagnosis.noise_floor import floor_of, without_hum
+from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
+from hysteresis_bench.diagnosis.findings.description import accepted
+from hysteresis_bench.diagnosis.findings.result import Diagnosis, Stage, Verdict
+from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
+from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.findings.words import carries_over, headline, warnings
 from hysteresis_bench.diagnosis.preparation import passes_to_close, thinned, with_held_out
-from hysteresis_bench.diagnosis.residual_tests import residual_tests
-from hysteresis_bench.diagnosis.result import Diagnosis, Stage, Verdict
-from hysteresis_bench.diagnosis.selection import Selection, with_simplest_offset
-from hysteresis_bench.diagnosis.stack import OFFSETS, OUTER, Stack
-from hysteresis_bench.diagnosis.terms import Equation, find_terms
-from hysteresis_bench.diagnosis.threads import single_threaded
-from hysteresis_bench.diagnosis.ties import Tie
-from hysteresis_bench.diagnosis.trials import Bench, Trial
-from hysteresis_bench.diagnosis.without_hysteresis import without_hysteresis
-from hysteresis_bench.diagnosis.words import carries_over, headline, warnings
+from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
+from hysteresis_bench.diagnosis.search.selection import Selection, with_simplest_offset
+from hysteresis_bench.diagnosis.search.systems import OFFSETS, OUTER, Stack
+from hysteresis_bench.diagnosis.search.without_hysteresis import without_hysteresis
+from hysteresis_bench.diagnosis.search.workers import Crew
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fitting import fitted_model
-from hysteresis_bench.identifiability import analyse
-from hysteresis_bench.model_file import FittedModel, Preparation
-from hysteresis_bench.objective import Problem
-from hysteresis_bench.settling import gap_after, not_closed, open_loops
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.fitting import fitted_model
+from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.least_squares import split
+from hysteresis_bench.fit.model_file import FittedModel, Preparation
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.settling import gap_after, not_closed, open_loops
+from hysteresis_bench.fit.threads import single_threaded
 from hysteresis_bench.signals import Dataset, Record
 
 FOLLOWS = 0.5
@@ -269,7 +269,7 @@ def _model(
     )
 
 
-def _standard_errors(problem: Problem, values: NDArray) -> NDArray:
+def _standard_errors(problem: Problem, values: Array) -> Array:
     try:
         return analyse(problem, values).standard_errors
     except (ValueError, np.linalg.LinAlgError):

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.diagnosis import covariates
-from hysteresis_bench.diagnosis.noise import fast_noise
-from hysteresis_bench.diagnosis.stack import Stack
-from hysteresis_bench.diagnosis.trials import Bench
-from hysteresis_bench.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
+from hysteresis_bench.diagnosis.evidence import covariates
+from hysteresis_bench.diagnosis.evidence.noise import fast_noise
+from hysteresis_bench.diagnosis.search.hypotheses import Bench
+from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
 from hysteresis_bench.signals import Dataset, Record
 
 MOST = 4000

@@ -18,7 +18,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 SERIES_LIMIT = 0.25
 """Largest |rate w| for the series of (1 - exp(-x)) / x below; its first neglected term is 2.4e-14 there."""
@@ -40,7 +41,7 @@ ROWS = 11
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
-def _paths(u: NDArray) -> tuple[NDArray, NDArray]:
+def _paths(u: Array) -> tuple[Array, Array]:
     """Of every column of u, float64[samples, columns]: the path's length and the largest increment."""
     samples, columns = u.shape
     length = np.zeros(columns)
@@ -88,7 +89,7 @@ def _regrown(g: float, drive: float, along: float, against: float, width: float)
 
 
 @njit(cache=True, error_model="numpy")
-def _coarse(work: NDArray, used: int, largest: float) -> int:
+def _coarse(work: Array, used: int, largest: float) -> int:
     """Advance g by increments of any width, one for each lane: the series on a part of the increment that
     is short enough, then doubled. largest : of |rate w| in all lanes -> number of lanes that want `_mended`."""
     doublings = 0
@@ -122,7 +123,7 @@ def _coarse(work: NDArray, used: int, largest: float) -> int:
 
 
 @njit(cache=True, error_model="numpy")
-def _mended(work: NDArray, used: int) -> None:
+def _mended(work: Array, used: int) -> None:
     """Repeat the increment for the lanes whose g crossed 0 on it; cut the ones that ran away."""
     for j in range(used):
         if work[OLD + j] < 0.0 and work[G + j] > 0.0:
@@ -132,7 +133,7 @@ def _mended(work: NDArray, used: int) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _turned(work: NDArray, used: int) -> None:
+def _turned(work: Array, used: int) -> None:
     """Reversal of the input of the lanes whose increment (in WIDTH, with its sign) and RISING disagree:
     g = s h changes sign with s."""
     for j in range(used):
@@ -143,7 +144,7 @@ def _turned(work: NDArray, used: int) -> None:
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def bouc_wen(u: NDArray, alpha: NDArray, beta: NDArray, gamma: NDArray, d: NDArray) -> NDArray:
+def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Array:
     """Bouc-Wen with n = 1, exact on every increment of the input.
 
     u : float64[samples, 1] shared by the swarm, or float64[samples, swarm]    input
@@ -271,7 +272,7 @@ def _integrated(g: float, drive: float, along: float, against: float, n: float, 
 
 
 @njit(cache=True, error_model="numpy")
-def bouc_wen_power(u: NDArray, alpha: NDArray, beta: NDArray, gamma: NDArray, d: NDArray, n: float) -> NDArray:
+def bouc_wen_power(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array, n: float) -> Array:
     """Bouc-Wen with any n >= 1, integrated adaptively in u to a relative error of 1e-8 or better.
 
     n : smoothness of the loop, 1; the other arguments, and the result, as in `bouc_wen`

@@ -15,8 +15,8 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.bouc_wen import _integrated, _regrown, _slope, _weakened
 
 MOST_STEPS = 200
@@ -81,7 +81,7 @@ def inverted(
 
 
 @njit(cache=True, error_model="numpy")
-def invert(v: NDArray, alpha: float, beta: float, gamma: float, d: float, n: float) -> NDArray:
+def invert(v: Array, alpha: float, beta: float, gamma: float, d: float, n: float) -> Array:
     """The input whose Bouc-Wen output is v; like the forward kernel it begins with h = 0, so u(0) = v(0) / d.
 
     v : float64[samples], unit of d u;  parameters as in `inverted`

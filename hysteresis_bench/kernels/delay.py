@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 
 @njit(cache=True, error_model="numpy")
-def delay(time: NDArray, u: NDArray, duration: NDArray) -> NDArray:
+def delay(time: Array, u: Array, duration: Array) -> Array:
     """v(t) = u(t - duration), linear between the samples of u and constant before the first one.
 
     time : float64[samples]                               strictly increasing, any spacing

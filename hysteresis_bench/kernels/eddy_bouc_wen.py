@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.bouc_wen import RUNAWAY, STEEPEST, _integrated, _regrown, _weakened
 from hysteresis_bench.kernels.eddy_current import acting
 
@@ -14,7 +14,7 @@ LOOP, BETA, GAMMA, SLOPE, POWER, BOUND, INPUT, H, NEXT = range(9)
 
 
 @njit(cache=True, error_model="numpy")
-def _advanced(s: NDArray, z: float) -> float:
+def _advanced(s: Array, z: float) -> float:
     """v where the acting input has moved on to z; h goes to NEXT."""
     step = z - s[INPUT]
     width = abs(step)
@@ -39,15 +39,15 @@ def _advanced(s: NDArray, z: float) -> float:
 
 @njit(cache=True, error_model="numpy")
 def eddy_bouc_wen(
-    time: NDArray,
-    u: NDArray,
-    coefficient: NDArray,
-    alpha: NDArray,
-    beta: NDArray,
-    gamma: NDArray,
-    d: NDArray,
+    time: Array,
+    u: Array,
+    coefficient: Array,
+    alpha: Array,
+    beta: Array,
+    gamma: Array,
+    d: Array,
     n: float,
-) -> NDArray:
+) -> Array:
     """v of a swarm, where z = u - coefficient dv/dt acts in place of u.
 
     time : float64[samples]           strictly increasing

@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.eddy_current import acting
 from hysteresis_bench.kernels.free_energy import LANES, error_function
 
@@ -17,7 +17,7 @@ SCALE, SLOPE, AMPLITUDE, MOVED = range(4)
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
-def _advanced(of: tuple[NDArray, NDArray], z: float) -> float:
+def _advanced(of: tuple[Array, Array], z: float) -> float:
     """M where the acting field has moved on to z; the MOVED nodes of smallest radius find NEXT_STATE, NEXT_TERM."""
     nodes, s = of
     padded = nodes.shape[1]
@@ -42,7 +42,7 @@ def _advanced(of: tuple[NDArray, NDArray], z: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def _kept(nodes: NDArray, s: NDArray) -> None:
+def _kept(nodes: Array, s: Array) -> None:
     """What the last trial found is the state."""
     for j in range(int(s[MOVED])):
         nodes[STATE, j] = nodes[NEXT_STATE, j]
@@ -51,17 +51,17 @@ def _kept(nodes: NDArray, s: NDArray) -> None:
 
 @njit(cache=True, error_model="numpy")
 def eddy_magnetization(
-    time: NDArray,
-    field: NDArray,
-    coefficient: NDArray,
-    slope: NDArray,
-    amplitude: NDArray,
-    coercive_field: NDArray,
-    spread: NDArray,
-    interaction: NDArray,
-    offsets: NDArray,
-    weights: NDArray,
-) -> NDArray:
+    time: Array,
+    field: Array,
+    coefficient: Array,
+    slope: Array,
+    amplitude: Array,
+    coercive_field: Array,
+    spread: Array,
+    interaction: Array,
+    offsets: Array,
+    weights: Array,
+) -> Array:
     """M of a swarm, where z = H - coefficient dM/dt acts in place of the field H.
 
     time : float64[samples]           strictly increasing

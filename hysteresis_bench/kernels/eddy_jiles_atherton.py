@@ -6,8 +6,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.eddy_current import acting
 from hysteresis_bench.kernels.jiles_atherton import GROWTH, MU0, advanced, first_anhysteretic
 
@@ -16,7 +16,7 @@ ALPHA, A, K, M_S, C, CLAMPED, FIELD, LAST, MI, D, M, RISE_D, RISE_M, NEXT_MI, NE
 
 
 @njit(cache=True, error_model="numpy")
-def _response(s: NDArray, z: float) -> float:
+def _response(s: Array, z: float) -> float:
     """B where the acting field has moved on to z: the step of `jiles_atherton`, for one particle."""
     dH = z - s[FIELD]
     if dH == 0.0:
@@ -32,7 +32,7 @@ def _response(s: NDArray, z: float) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def _kept(s: NDArray, z: float) -> None:
+def _kept(s: Array, z: float) -> None:
     """What the last trial found is the state."""
     if z == s[FIELD]:
         return
@@ -45,16 +45,16 @@ def _kept(s: NDArray, z: float) -> None:
 
 @njit(cache=True, error_model="numpy")
 def eddy_jiles_atherton(
-    time: NDArray,
-    H: NDArray,
-    coefficient: NDArray,
-    alpha: NDArray,
-    a: NDArray,
-    k: NDArray,
-    M_s: NDArray,
-    c: NDArray,
+    time: Array,
+    H: Array,
+    coefficient: Array,
+    alpha: Array,
+    a: Array,
+    k: Array,
+    M_s: Array,
+    c: Array,
     clamped: bool,
-) -> NDArray:
+) -> Array:
     """B of a swarm, where z = H - coefficient dB/dt acts in place of the field H: B = mu0 (z + M).
 
     time : float64[samples]           strictly increasing

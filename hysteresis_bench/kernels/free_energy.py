@@ -16,7 +16,8 @@ from typing import Literal
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 Rule = Literal["trapezoid", "gauss-legendre", "gauss-hermite"]
 
@@ -24,7 +25,7 @@ LANES = 8
 """Nodes are handled in groups of this many: one AVX-512 register of float64, two of AVX2."""
 
 
-def quadrature(rule: Rule, nodes: int, span: float) -> tuple[NDArray, NDArray]:
+def quadrature(rule: Rule, nodes: int, span: float) -> tuple[Array, Array]:
     """Offsets s_j, rising, and weights v_j with sum_j v_j f(s_j) ~ (1/sqrt(pi)) int exp(-s^2) f(s) ds.
 
     span : half-width of the interval kept by the trapezoid and by Gauss-Legendre
@@ -65,15 +66,15 @@ def error_function(x: float) -> float:
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
 def magnetization(
-    field: NDArray,
-    slope: NDArray,
-    amplitude: NDArray,
-    coercive_field: NDArray,
-    spread: NDArray,
-    interaction: NDArray,
-    offsets: NDArray,
-    weights: NDArray,
-) -> NDArray:
+    field: Array,
+    slope: Array,
+    amplitude: Array,
+    coercive_field: Array,
+    spread: Array,
+    interaction: Array,
+    offsets: Array,
+    weights: Array,
+) -> Array:
     """Eqs. (1)-(3) of [1]: M = slope H + amplitude sum_j v_j erf(P_j / (b sqrt 2)).
 
     Demagnetized before the first sample: every play rests at P = 0 and is switched by the first field.

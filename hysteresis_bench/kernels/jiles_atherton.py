@@ -24,8 +24,8 @@ from collections.abc import Callable
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.langevin import langevin_ratio
 
 MU0 = 4e-7 * math.pi
@@ -99,11 +99,11 @@ def advanced(H, h, delta, ahead, alpha, inverse_a, pull, k, M_s, c, Mi, D_, M_, 
     return Mi, D_, Mi + c * D_
 
 
-def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
+def _compiled(clamped: bool, shared: bool) -> Callable[..., Array]:
     """The kernel for one treatment of reversal and one kind of input; neither costs the others anything."""
 
     @njit(cache=True, error_model="numpy", fastmath={"contract"})
-    def kernel(H: NDArray, alpha: NDArray, a: NDArray, k: NDArray, M_s: NDArray, c: NDArray) -> NDArray:
+    def kernel(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array) -> Array:
         samples, swarm = H.shape[0], alpha.size
         groups = (swarm + LANES - 1) // LANES
         # A group is written whole; what it writes past the end of a row, the next row overwrites.
@@ -175,9 +175,7 @@ def _compiled(clamped: bool, shared: bool) -> Callable[..., NDArray]:
 _KERNELS = {(clamped, shared): _compiled(clamped, shared) for clamped in (False, True) for shared in (False, True)}
 
 
-def jiles_atherton(
-    H: NDArray, alpha: NDArray, a: NDArray, k: NDArray, M_s: NDArray, c: NDArray, clamped: bool = False
-) -> NDArray:
+def jiles_atherton(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array, clamped: bool = False) -> Array:
     """B = mu0 (H + M) of a swarm; the module says how.
 
     H : float64[samples, 1] shared by the swarm, or float64[samples, swarm]; any start, M_irr = 0 there

@@ -14,7 +14,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 SAME_STEP = 1e-9
 """Steps of the time grid that differ by less than this share count as equal: an even grid costs one
@@ -22,7 +23,7 @@ exponential a column."""
 
 
 @njit(cache=True, error_model="numpy")
-def _decays(step: float, time_constant: NDArray, kept: NDArray, passed: NDArray) -> None:
+def _decays(step: float, time_constant: Array, kept: Array, passed: Array) -> None:
     """exp(-x) and (1 - exp(-x)) / x of every column, x = step / time constant."""
     for j in range(time_constant.size):
         if time_constant[j] > 0.0:
@@ -35,7 +36,7 @@ def _decays(step: float, time_constant: NDArray, kept: NDArray, passed: NDArray)
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def lag(time: NDArray, u: NDArray, time_constant: NDArray) -> NDArray:
+def lag(time: Array, u: Array, time_constant: Array) -> Array:
     """First-order lag of every column, tau dv/dt + v = u, in static equilibrium with the first sample.
 
     time : float64[samples]                               strictly increasing, any spacing
@@ -66,7 +67,7 @@ def lag(time: NDArray, u: NDArray, time_constant: NDArray) -> NDArray:
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def late_response(time: NDArray, u: NDArray, share: NDArray, time_constants: NDArray) -> NDArray:
+def late_response(time: Array, u: Array, share: Array, time_constants: Array) -> Array:
     """A share of the signal arrives late, through equally weighted lags: u + share mean_k(lag_k(u) - u).
 
     time : float64[samples]                               strictly increasing, any spacing

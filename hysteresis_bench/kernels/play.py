@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 
 @njit(cache=True, error_model="numpy")
-def play(u: NDArray, radius: NDArray) -> NDArray:
+def play(u: Array, radius: Array) -> Array:
     """Play (backlash) operator: the output follows the input with a dead band.
 
     Rate-independent: the order of samples matters, their times do not. Exact for an input that is monotone

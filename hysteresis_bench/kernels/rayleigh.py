@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 
 @njit(cache=True, error_model="numpy")
-def rayleigh(u: NDArray) -> NDArray:
+def rayleigh(u: Array) -> Array:
     """The irreversible part of Rayleigh's law for a unit coefficient.
 
     Rate-independent: the order of samples matters, their times do not. Exact for an input that is monotone

@@ -15,7 +15,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 SAME_STEP = 1e-9
 """Steps of the time grid that differ by less than this share count as equal."""
@@ -61,7 +62,7 @@ def transition(damping: float, stiffness: float, duration: float) -> tuple[float
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def second_order(time: NDArray, u: NDArray, damping: NDArray, stiffness: NDArray) -> NDArray:
+def second_order(time: Array, u: Array, damping: Array, stiffness: Array) -> Array:
     """The response of a swarm of stages, from static equilibrium with the first sample.
 
     time : float64[samples]             strictly increasing, any spacing, s

@@ -6,7 +6,8 @@ import math
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 SAME_STEP = 1e-9
 """Steps of the time grid that differ by less than this share count as equal."""
@@ -16,7 +17,7 @@ ANCHOR = 32
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def sinusoid(time: NDArray, cosine: NDArray, sine: NDArray, frequency: NDArray) -> NDArray:
+def sinusoid(time: Array, cosine: Array, sine: Array, frequency: Array) -> Array:
     """cosine cos(2 pi f t) + sine sin(2 pi f t).
 
     time : float64[samples]             any spacing

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def sum_of_squares(simulated: NDArray, measured: NDArray) -> NDArray:
+def sum_of_squares(simulated: Array, measured: Array) -> Array:
     """Squared error summed over the samples, for every column.
 
     simulated : float64[samples, swarm]

@@ -10,9 +10,9 @@ from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.data_files import read_data
 from hysteresis_bench.errors import UserError, nearest
-from hysteresis_bench.identify import generator
-from hysteresis_bench.loss import LOSSES
-from hysteresis_bench.objective import Problem
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.search import generator
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, joined
 from hysteresis_bench.study.study_file import ProblemSpec, Study

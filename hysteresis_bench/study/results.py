@@ -12,7 +12,7 @@ from typing import Any
 import pandas as pd
 
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.objective import Trace
+from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.closing_files import Closing, read_closing
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import Study, check_study

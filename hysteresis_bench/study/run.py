@@ -19,12 +19,12 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.identify import seed_of
-from hysteresis_bench.study.afterwards import identifiability, responses
+from hysteresis_bench.fit.search import seed_of
+from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
+from hysteresis_bench.study.afterwards.stages import ClosedLoop, run_stages
 from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.results import IDENTIFIABILITY, PROVENANCE, PUBLISHED, RESPONSES, STAGES, STUDY, TRIALS
-from hysteresis_bench.study.stages import ClosedLoop, run_stages
 from hysteresis_bench.study.store import Outcome, Store
 from hysteresis_bench.study.study_file import Study, check_study, read_study
 from hysteresis_bench.study.trial import Ticket, run_trial, seed_key

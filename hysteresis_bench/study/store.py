@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench.objective import Trace
+from hysteresis_bench.fit.objective import Trace
 
 FILE = "trials.sqlite"
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from hysteresis_bench import registry
 from hysteresis_bench.errors import nearest
-from hysteresis_bench.loss import LOSSES
+from hysteresis_bench.fit.loss import LOSSES
 
 
 def content_faults(raw: dict[str, Any]) -> list[str]:

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from hysteresis_bench import registry
-from hysteresis_bench.accuracy import accuracy
-from hysteresis_bench.identify import generator, search, seed_of, shared_start
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.search import generator, search, seed_of, shared_start
 from hysteresis_bench.study.problems import Built, build_problem
 from hysteresis_bench.study.store import Outcome
 from hysteresis_bench.study.study_file import Study

@@ -12,8 +12,8 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model, Optimizer
-from hysteresis_bench.loss import LOSSES
-from hysteresis_bench.objective import BudgetSpent, Objective, Problem, Trace
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import BudgetSpent, Objective, Problem, Trace
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record
 

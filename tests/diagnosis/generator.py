@@ -12,10 +12,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.random import Generator, default_rng
-from numpy.typing import NDArray
 from scipy.signal import bilinear, lfilter, lfilter_zi
 
 from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.signals import Dataset, Record, Signal
 
 FINER = 10
@@ -81,7 +81,7 @@ def make(seed: int, model: str, hidden: Sequence[str] | None = None, noise: floa
     return Case(model, tuple(hidden), Dataset(tuple(records[:-1]), HELD_OUT), tuple(records[-1:]), share * span)
 
 
-def _drive(phase: NDArray, number: int) -> NDArray:
+def _drive(phase: Array, number: int) -> Array:
     """Between -1 and 1, from 0: decaying loops, minor loops, an amplitude that swells, a triangle that shrinks."""
     kind = number % 4
     if kind == 0:
@@ -100,9 +100,9 @@ def _response(
     frequency: float,
     number: int,
     hidden: set[str],
-    strengths: dict[str, NDArray],
+    strengths: dict[str, Array],
     rng: Generator,
-) -> tuple[NDArray, NDArray, NDArray, NDArray]:
+) -> tuple[Array, Array, Array, Array]:
     cycles, fastest, slowest = 5.0, 6.0, 0.5
     time = np.linspace(0.0, cycles / frequency, (SAMPLES - 1) * FINER + 1)
     drive = amplitude * _drive(time * frequency, number)
@@ -158,20 +158,20 @@ def _largest(model: str, values: dict[str, float], amplitude: float) -> float:
     return float(plugin.simulate(Signal(rise, np.ascontiguousarray(rise[:, None])), named)[-1, 0])
 
 
-def _first_order(time: NDArray, x: NDArray, constant: float) -> NDArray:
+def _first_order(time: Array, x: Array, constant: float) -> Array:
     """Tustin's rule on the fine grid."""
     step = time[1] - time[0]
     b, a = bilinear([1.0], [constant, 1.0], 1.0 / step)
     return lfilter(b, a, x, zi=lfilter_zi(b, a) * x[0])[0]
 
 
-def _second_order(time: NDArray, x: NDArray, natural: float, damping: float) -> NDArray:
+def _second_order(time: Array, x: Array, natural: float, damping: float) -> Array:
     step = time[1] - time[0]
     b, a = bilinear([natural**2], [1.0, 2.0 * damping * natural, natural**2], 1.0 / step)
     return lfilter(b, a, x, zi=lfilter_zi(b, a) * x[0])[0]
 
 
-def _clearance(u: NDArray, half: float) -> NDArray:
+def _clearance(u: Array, half: float) -> Array:
     """A body between two walls that move with the input."""
     body, out = float(u[0]), np.empty_like(u)
     for place, wall in enumerate(u.tolist()):

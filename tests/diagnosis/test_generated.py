@@ -5,11 +5,11 @@ import json
 import pytest
 from click.testing import CliRunner
 
-from hysteresis_bench.accuracy import accuracy
 from hysteresis_bench.commands.diagnose import diagnose as command
 from hysteresis_bench.data_files import write_csv
 from hysteresis_bench.diagnosis.diagnose import diagnose
-from hysteresis_bench.model_file import read_model
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.signals import Dataset
 from tests.diagnosis.generator import make
 

@@ -6,7 +6,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.preparation import passes_to_close
-from hysteresis_bench.settling import CLOSED
+from hysteresis_bench.fit.settling import CLOSED
 from hysteresis_bench.signals import Dataset, Record
 
 TIME = np.arange(200) / 200.0

@@ -12,10 +12,10 @@ import pytest
 from click.testing import CliRunner, Result
 
 from hysteresis_bench.cli import main
-from hysteresis_bench.commands.closing import ClosingTicket, asked_for, run_closing
 from hysteresis_bench.kernels.lag import lag
-from hysteresis_bench.report.page import number
+from hysteresis_bench.report.shared.page import number
 from hysteresis_bench.study.study_file import check_study, read_study
+from hysteresis_bench.study_diagnosis import ClosingTicket, asked_for, run_closing
 from tests.end_to_end.test_run import bench
 
 STUDIES = Path(__file__).parents[2] / "studies"
@@ -96,7 +96,7 @@ def test_the_report_ends_with_what_was_found(closed):
 
 def test_the_report_is_written_again_without_a_diagnosis(closed, monkeypatch):
     before = (closed / "report.html").read_bytes()
-    monkeypatch.setattr("hysteresis_bench.commands.closing.diagnose", lambda *_, **__: pytest.fail("diagnosed"))
+    monkeypatch.setattr("hysteresis_bench.study_diagnosis.diagnose", lambda *_, **__: pytest.fail("diagnosed"))
     monkeypatch.setattr("hysteresis_bench.diagnosis.diagnose.diagnose", lambda *_, **__: pytest.fail("diagnosed"))
     assert report(closed).exit_code == 0
     assert (closed / "report.html").read_bytes() == before

@@ -6,7 +6,7 @@ import subprocess
 
 import pytest
 
-from hysteresis_bench.report import write_report
+from hysteresis_bench.report.study import write_report
 from tests.synthetic_study import write_results
 
 BROWSER = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome", "chrome"))), None)

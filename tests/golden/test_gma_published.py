@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from hysteresis_bench.report.audit import audit
-from hysteresis_bench.report.published import check_published
+from hysteresis_bench.report.paper.audit import audit
+from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.study.study_file import read_study
 from hysteresis_plugins.models.free_energy_gma import REDUCED, FreeEnergyGma
 from hysteresis_plugins.optimizers.icpso import Icpso

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from hysteresis_bench.report.audit import audit
-from hysteresis_bench.report.published import check_published
+from hysteresis_bench.report.paper.audit import audit
+from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.study.study_file import read_study
 from hysteresis_plugins.optimizers.gpmix import Gpmix
 from hysteresis_plugins.rigs.pea_noise_free import PUBLISHED

@@ -3,8 +3,8 @@
 import pytest
 
 from hysteresis_bench import registry
-from hysteresis_bench.accuracy import accuracy
-from hysteresis_bench.identify import generator, search, shared_start
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.search import generator, search, shared_start
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.study_file import ProblemSpec
 from hysteresis_plugins.rigs.sma_known_truth import TRUTH

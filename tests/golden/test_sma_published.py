@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from hysteresis_bench.report.audit import audit
-from hysteresis_bench.report.published import check_published
+from hysteresis_bench.report.paper.audit import audit
+from hysteresis_bench.report.paper.published import check_published
 
 STUDIES = Path(__file__).parents[2] / "studies"
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
 from hysteresis_bench.compose import System
-from hysteresis_bench.loss import LOSSES
-from hysteresis_bench.objective import Objective, Problem
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import Objective, Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects.resonance import Resonance

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.signals import Record
 
 FINEST = 0.02
@@ -48,7 +48,7 @@ def finest_step(records: Sequence[Record]) -> float:
     return min(float(np.median(np.diff(record.time))) for record in records)
 
 
-def spectrum(time: NDArray, values: NDArray) -> tuple[NDArray, NDArray]:
+def spectrum(time: Array, values: Array) -> tuple[Array, Array]:
     """Frequencies and amplitudes of an unevenly sampled signal: resampled evenly, without its mean, tapered
     and padded, so that its ends do not leak and its lines are resolved finely."""
     even = np.linspace(time[0], time[-1], time.size)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -20,10 +20,10 @@ class Bias(Effect):
 
     parameters = (Parameter("offset", -1.0, 1.0, unit="{output}", null=0.0, meaning="added to the output"),)
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal) + p.offset
 
-    def offset(self, simulated: NDArray, record: Record, p: Any) -> NDArray:
+    def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         return np.asarray(p.offset)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

@@ -6,8 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from numpy.typing import NDArray
-
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -25,7 +24,7 @@ class Drift(Effect):
 
     parameters = (Parameter("rate", -1.0, 1.0, "{output}/{time}", null=0.0, meaning="of the output's zero"),)
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = inner(signal)
         return output + p.rate * (signal.time - signal.time[0])[:, None] if signal.timed else output
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -34,7 +34,7 @@ class Fatigue(Effect):
 
     parameters = (Parameter("rate", 0.0, 1.0, "1/{input}", null=0.0, meaning="loss of amplitude a path"),)
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal) * np.exp(-p.rate * _path(signal.input))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
@@ -51,6 +51,6 @@ class Fatigue(Effect):
         return ""
 
 
-def _path(values: NDArray) -> NDArray:
+def _path(values: Array) -> Array:
     """Length of the path since the first sample, same shape."""
     return np.cumsum(np.abs(np.diff(values, axis=0, prepend=values[:1])), axis=0)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -53,7 +53,7 @@ class PeriodicDisturbance(Effect):
         Parameter("frequency", 0.1, 100.0, "1/{time}", meaning="of the disturbance"),
     )
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.sinusoid import sinusoid
 
         output = inner(signal)
@@ -76,7 +76,7 @@ class PeriodicDisturbance(Effect):
             return f"no record has {4 * PERIODS:.0f} samples"
         return ""
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[NDArray]) -> list[dict[str, float]]:
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
         """Values from which to fit, the most promising first: the highest lines of the residuals' common
         spectrum that are no harmonics of the drive.
 
@@ -103,7 +103,7 @@ class PeriodicDisturbance(Effect):
         return found
 
 
-def _without_drive(record: Record, residual: NDArray, drive: float) -> NDArray:
+def _without_drive(record: Record, residual: Array, drive: float) -> Array:
     """The residual less its trend and the harmonics of the drive, by least squares."""
     time = record.time[record.scored]
     turns = 2.0 * np.pi * drive * time
@@ -113,7 +113,7 @@ def _without_drive(record: Record, residual: NDArray, drive: float) -> NDArray:
     return residual - columns @ np.linalg.lstsq(columns, residual, rcond=None)[0]
 
 
-def _amplitudes(records: Sequence[Record], residuals: Sequence[NDArray], frequency: float) -> dict[str, float]:
+def _amplitudes(records: Sequence[Record], residuals: Sequence[Array], frequency: float) -> dict[str, float]:
     """Least-squares amplitudes at one frequency, all records together, each with its own constant."""
     phase = 2.0 * np.pi * frequency * np.concatenate([record.time[record.scored] for record in records])
     owner = np.repeat(np.arange(len(records)), [residual.size for residual in residuals])

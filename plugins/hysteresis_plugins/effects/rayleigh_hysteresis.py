@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -32,7 +32,7 @@ class RayleighHysteresis(Effect):
         Parameter("coefficient", 0.0, 1.0, "{output}/{input}^2", null=0.0, meaning="growth of the slope of loops"),
     )
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.rayleigh import rayleigh
 
         output = inner(signal)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -26,10 +26,10 @@ class RecordDrift(Effect):
 
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal)
 
-    def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+    def adjust(self, simulated: Array, record: Record) -> Array:
         if record.output is None or not record.timed:
             return simulated
         scored = record.time[record.scored]

@@ -7,8 +7,8 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -26,13 +26,13 @@ class RecordOffset(Effect):
 
     default: float = 0.0
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal)
 
-    def adjust(self, simulated: NDArray, record: Record) -> NDArray:
+    def adjust(self, simulated: Array, record: Record) -> Array:
         return simulated + self.offset(simulated, record, None)
 
-    def offset(self, simulated: NDArray, record: Record, p: Any) -> NDArray:
+    def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         if record.output is None:
             return np.full(simulated.shape[1], self.default)
         return np.mean(record.measured) - np.mean(simulated[record.scored], axis=0)

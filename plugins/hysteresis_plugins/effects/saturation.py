@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -34,7 +34,7 @@ class Saturation(Effect):
         Parameter("sharpness", 1.0, 20.0, scaling="log", meaning="of the bend, n"),
     )
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = inner(signal)
         with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
             excess = np.abs(p.inverse_level * output)

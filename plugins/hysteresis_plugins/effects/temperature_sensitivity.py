@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -36,7 +36,7 @@ class TemperatureSensitivity(Effect):
 
     reference: float = 20.0
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         if "temperature" not in signal.columns:
             raise ValueError("temperature-sensitivity needs a column temperature; these data have none")
         above = (signal.columns["temperature"] - self.reference)[:, None]

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -43,7 +43,7 @@ class EddyCurrent(Effect):
         ),
     )
 
-    def apply(self, inner: Callable[[Signal], NDArray], signal: Signal, p: Any) -> NDArray:
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal)  # the model has applied it
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
@@ -60,11 +60,11 @@ OFFERS = {"eddy-current": EddyCurrent()}
 
 
 def with_eddy_current(
-    plain: Callable[[NDArray, Any], NDArray],
-    dragged: Callable[[NDArray, NDArray, NDArray, Any], NDArray],
+    plain: Callable[[Array, Any], Array],
+    dragged: Callable[[Array, Array, Array, Any], Array],
     signal: Signal,
     p: Any,
-) -> NDArray:
+) -> Array:
     """A model's output, (samples, swarm), with eddy currents where the signal has a time and p a coefficient.
 
     plain(u, p) : without; dragged(time, u, coefficient, p) : with, for the particles whose coefficient is not 0.

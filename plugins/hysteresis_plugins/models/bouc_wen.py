@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -50,17 +50,17 @@ class BoucWen(Model):
         if not 1.0 <= self.n < np.inf:
             raise ValueError(f"n = {self.n} must be a finite number of at least 1.")
 
-    def simulate(self, signal: Signal, p: Any) -> NDArray:
+    def simulate(self, signal: Signal, p: Any) -> Array:
         return with_eddy_current(self._plain, self._dragged, signal, p)
 
-    def _plain(self, u: NDArray, p: Any) -> NDArray:
+    def _plain(self, u: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.bouc_wen import bouc_wen, bouc_wen_power
 
         if self.n == 1.0:
             return bouc_wen(u, p.alpha, p.beta, p.gamma, p.d)
         return bouc_wen_power(u, p.alpha, p.beta, p.gamma, p.d, self.n)
 
-    def _dragged(self, time: NDArray, u: NDArray, coefficient: NDArray, p: Any) -> NDArray:
+    def _dragged(self, time: Array, u: Array, coefficient: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.eddy_bouc_wen import eddy_bouc_wen
 
         return eddy_bouc_wen(time, u, coefficient, p.alpha, p.beta, p.gamma, p.d, float(self.n))

@@ -23,8 +23,8 @@ from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -71,29 +71,29 @@ class FreeEnergy(Model):
             raise ValueError(f"span = {self.span} must be above 0")
 
     @cached_property
-    def _quadrature(self) -> tuple[NDArray, NDArray]:
+    def _quadrature(self) -> tuple[Array, Array]:
         from hysteresis_bench.kernels.free_energy import quadrature
 
         return quadrature(self.rule, self.nodes, self.span)
 
-    def simulate(self, signal: Signal, p: Any) -> NDArray:
+    def simulate(self, signal: Signal, p: Any) -> Array:
         for name in ("H_c", "b", "c", "eta"):
             least = np.min(getattr(p, name))
             if not least > 0.0:
                 raise ValueError(f"free-energy: {name} must be above 0, not {least:g}")
         return with_eddy_current(self._plain, self._dragged, signal, p)
 
-    def _plain(self, H: NDArray, p: Any) -> NDArray:
+    def _plain(self, H: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.free_energy import magnetization
 
         return magnetization(H, *self._law(p))
 
-    def _dragged(self, time: NDArray, H: NDArray, coefficient: NDArray, p: Any) -> NDArray:
+    def _dragged(self, time: Array, H: Array, coefficient: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.eddy_free_energy import eddy_magnetization
 
         return eddy_magnetization(time, H, coefficient, *self._law(p))
 
-    def _law(self, p: Any) -> tuple[NDArray, ...]:
+    def _law(self, p: Any) -> tuple[Array, ...]:
         """What the kernel takes after the field."""
         # (1): alpha times the integrals of both densities, with dH_c = 2 c H_c dx and H_c = mean exp(2 c x)
         mass = p.alpha * (np.sqrt(2 * np.pi) * p.b) * (2 * np.sqrt(np.pi) * p.c * p.H_c * np.exp(p.c**2))
@@ -110,7 +110,7 @@ class FreeEnergy(Model):
         return tuple(sentence for record in records for sentence in unswitched(record.name, record.input))
 
 
-def unswitched(name: str, field: NDArray) -> tuple[str, ...]:
+def unswitched(name: str, field: Array) -> tuple[str, ...]:
     """Sentences on why a field over time cannot tell the widths of the densities; none where it can."""
     if np.ptp(field) == 0.0:
         return (f"record {name}: the field never changes; there is nothing to identify",)

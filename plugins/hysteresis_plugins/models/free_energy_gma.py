@@ -29,8 +29,8 @@ from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -94,7 +94,7 @@ class FreeEnergyGma(Model):
     def _magnetization(self) -> FreeEnergy:
         return FreeEnergy(self.rule, self.nodes, self.span)
 
-    def simulate(self, signal: Signal, p: Any) -> NDArray:
+    def simulate(self, signal: Signal, p: Any) -> Array:
         if not np.min(p.M_s) > 0.0:
             raise ValueError(f"free-energy-gma: M_s must be above 0, not {np.min(p.M_s):g}")
         magnetized = self._magnetization.simulate(signal.with_input(self.field(signal)), p)  # (1)
@@ -102,14 +102,14 @@ class FreeEnergyGma(Model):
         force = self.area * self.modulus * strain + self.mass * self.disturbance - self.prestress * self.area
         return 1e6 * self._displacement(signal, force)
 
-    def field(self, signal: Signal) -> NDArray:
+    def field(self, signal: Signal) -> Array:
         """Field in the rod, A/m: the coil's and the bias; the shape of the input."""
         bias = self.bias_field
         if bias is not None or "bias_field" not in signal.columns:
             return self.turns * signal.input + (bias or 0.0)
         return self.turns * signal.input + signal.columns["bias_field"][:, None]
 
-    def _displacement(self, signal: Signal, force: NDArray) -> NDArray:
+    def _displacement(self, signal: Signal, force: Array) -> Array:
         """(5): (samples, swarm) in m; force in N."""
         deflection = force / self.stiffness
         if not signal.timed:

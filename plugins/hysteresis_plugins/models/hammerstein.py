@@ -13,8 +13,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -45,7 +45,7 @@ class Hammerstein(Model):
     def __post_init__(self) -> None:
         BoucWen(self.n)
 
-    def simulate(self, signal: Signal, p: Any) -> NDArray:
+    def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.second_order import second_order
 
         v = BoucWen(self.n).simulate(signal, p)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -44,15 +44,15 @@ class JilesAtherton(Model):
     offers = OFFERS
     clamped: ClassVar[bool] = False
 
-    def simulate(self, signal: Signal, p: Any) -> NDArray:
+    def simulate(self, signal: Signal, p: Any) -> Array:
         return with_eddy_current(self._plain, self._dragged, signal, p)
 
-    def _plain(self, H: NDArray, p: Any) -> NDArray:
+    def _plain(self, H: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.jiles_atherton import jiles_atherton
 
         return jiles_atherton(H, p.alpha, p.a, p.k, p.M_s, p.c, self.clamped)
 
-    def _dragged(self, time: NDArray, H: NDArray, coefficient: NDArray, p: Any) -> NDArray:
+    def _dragged(self, time: Array, H: Array, coefficient: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.eddy_jiles_atherton import eddy_jiles_atherton
 
         return eddy_jiles_atherton(time, H, coefficient, p.alpha, p.a, p.k, p.M_s, p.c, self.clamped)
@@ -88,7 +88,7 @@ class JilesAtherton(Model):
         return tuple(found)
 
     @staticmethod
-    def _saturates(u: NDArray, y: NDArray) -> bool:
+    def _saturates(u: Array, y: Array) -> bool:
         """Does the mean output over the input range flatten at both ends?"""
         fifth = np.minimum((5 * (u - u.min()) / np.ptp(u)).astype(int), 4)
         if np.unique(fifth).size < 5:

@@ -11,8 +11,8 @@ from weakref import proxy
 import nlopt
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective, Start
 from hysteresis_plugins.optimizers._restart import first_points
 
@@ -34,7 +34,7 @@ class Search:
         self._objective = objective
         self._raised: BaseException | None = None
 
-    def run(self, point: NDArray) -> None:
+    def run(self, point: Array) -> None:
         """Search from a point (dimension,) until nlopt ends. That it can make no more progress is an end.
 
         What the objective raises is raised here, after nlopt has stopped: raised through nlopt, it turns
@@ -50,7 +50,7 @@ class Search:
         if self._raised is not None:
             raise self._raised
 
-    def _loss(self, point: NDArray) -> float:
+    def _loss(self, point: Array) -> float:
         if self._raised is None:
             try:
                 return self._objective(np.minimum(np.maximum(point, 0.0), 1.0))

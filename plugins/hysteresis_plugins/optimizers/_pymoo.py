@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 from pymoo.core.algorithm import Algorithm
 from pymoo.core.problem import Problem
 from pymoo.core.termination import NoTermination
 from pymoo.optimize import minimize
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective
 
 
@@ -22,7 +22,7 @@ class UnitBox(Problem):
         super().__init__(n_var=objective.dimension, n_obj=1, xl=0.0, xu=1.0)
         self.objective = objective
 
-    def _evaluate(self, points: NDArray, out: dict[str, Any], *args: Any, **kwargs: Any) -> None:
+    def _evaluate(self, points: Array, out: dict[str, Any], *args: Any, **kwargs: Any) -> None:
         out["F"] = self.objective.many(np.clip(points, 0.0, 1.0).T)
 
 

@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective
 
 UNLIMITED = 1_000_000_000
@@ -18,19 +18,19 @@ def box(objective: Objective) -> list[tuple[float, float]]:
     return [(0.0, 1.0)] * objective.dimension
 
 
-def clipped(objective: Objective) -> Callable[[NDArray], float]:
+def clipped(objective: Objective) -> Callable[[Array], float]:
     """The loss at a point, after points that lie outside by a rounding error are put on the wall."""
     return lambda point: objective(np.minimum(np.maximum(point, 0.0), 1.0))
 
 
-def with_gradient(objective: Objective, step: float) -> Callable[[NDArray], tuple[float, NDArray]]:
+def with_gradient(objective: Objective, step: float) -> Callable[[Array], tuple[float, Array]]:
     """The loss and its forward differences from one swarm of dimension + 1 evaluations.
 
     A difference that would leave the box is taken backward.
     """
     dimension = objective.dimension
 
-    def loss_and_gradient(point: NDArray) -> tuple[float, NDArray]:
+    def loss_and_gradient(point: Array) -> tuple[float, Array]:
         point = np.minimum(np.maximum(point, 0.0), 1.0)
         moved = np.where(point + step <= 1.0, point + step, point - step)
         swarm = np.repeat(point[:, None], dimension + 1, axis=1)

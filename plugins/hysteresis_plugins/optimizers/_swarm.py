@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective, Start
 
 
@@ -23,12 +23,12 @@ class Swarm:
     Bounds: a particle that would leave the box stops on its wall, with no velocity in that coordinate.
     """
 
-    position: NDArray
-    velocity: NDArray
+    position: Array
+    velocity: Array
     speed_limit: float
-    best: NDArray
-    best_loss: NDArray
-    leader: NDArray
+    best: Array
+    best_loss: Array
+    leader: Array
     leader_loss: float = np.inf
 
     @classmethod

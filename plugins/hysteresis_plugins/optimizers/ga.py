@@ -13,8 +13,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective, Optimizer, Start
 from hysteresis_plugins.optimizers._settings import at_least, between
 
@@ -60,7 +60,7 @@ class Ga(Optimizer):
         return self.particles
 
 
-def exchanged(points: NDArray, probability: float, rng: Generator) -> NDArray:
+def exchanged(points: Array, probability: float, rng: Generator) -> Array:
     """Crossover: random pairs exchange genes. points : (dimension, particles) -> same shape.
 
     Ours: with this probability a pair exchanges each gene with probability 1/2; of an odd number of
@@ -77,6 +77,6 @@ def exchanged(points: NDArray, probability: float, rng: Generator) -> NDArray:
     return children
 
 
-def mutated(points: NDArray, probability: float, rng: Generator) -> NDArray:
+def mutated(points: Array, probability: float, rng: Generator) -> Array:
     """Mutation: each gene with this probability. Ours: it is drawn anew, uniformly in the box."""
     return np.where(rng.random(points.shape) < probability, rng.random(points.shape), points)

@@ -27,8 +27,8 @@ from itertools import count
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective, Optimizer, Start
 from hysteresis_plugins.optimizers._settings import at_least, between, positive
 
@@ -113,8 +113,8 @@ class Icpso(Optimizer):
         return self.flight_time * (1.0 - self.shortening * t / iterations)  # (14)
 
     def candidates(
-        self, position: NDArray, velocity: NDArray, best: NDArray, leader: NDArray, flight: float, rng: Generator
-    ) -> tuple[list[NDArray], list[NDArray]]:
+        self, position: Array, velocity: Array, best: Array, leader: Array, flight: float, rng: Generator
+    ) -> tuple[list[Array], list[Array]]:
         """The three positions tried, inside the box, and their velocities; (dimension, particles) each."""
         v1 = self.inertia * velocity  # (8)
         v2 = v1 + self.cognitive * rng.random(position.shape) * (best - position)  # (9)
@@ -124,7 +124,7 @@ class Icpso(Optimizer):
         inside = [np.clip(x, 0.0, 1.0) for x in free]
         return inside, [np.where(x == y, v, 0.0) for x, y, v in zip(free, inside, limited, strict=True)]
 
-    def chaotic_sequence(self, seed: NDArray, rng: Generator) -> NDArray:
+    def chaotic_sequence(self, seed: Array, rng: Generator) -> Array:
         """The M2 points after the seed: (dimension, 1) -> (dimension, chaos_steps), inside the unit box."""
         z = seed
         points = []
@@ -135,7 +135,7 @@ class Icpso(Optimizer):
         return np.hstack(points)  # (18): the unit box is the map's own interval
 
     @staticmethod
-    def leading(best: NDArray, best_loss: NDArray) -> tuple[NDArray, float]:
+    def leading(best: Array, best_loss: Array) -> tuple[Array, float]:
         """The best of the bests, (dimension, 1), and its loss."""
         winner = int(np.argmin(best_loss))
         return best[:, winner : winner + 1].copy(), float(best_loss[winner])
@@ -144,13 +144,13 @@ class Icpso(Optimizer):
         return 3 * self.particles + self.chaos_steps
 
 
-def alive(z: NDArray, rng: Generator) -> NDArray:
+def alive(z: Array, rng: Generator) -> Array:
     """z moved off the points where the logistic map would come to rest; ours: by 1e-4 to 1e-3, at random."""
     dead = np.min(np.abs(z[..., None] - DEAD), axis=-1) < 1e-6
     shift = rng.uniform(1e-4, 1e-3, z.shape)
     return np.where(dead, np.where(z < 0.5, z + shift, z - shift), z)
 
 
-def picked(options: list[NDArray], chosen: NDArray) -> NDArray:
+def picked(options: list[Array], chosen: Array) -> Array:
     """Column j of options[chosen[j]]: (dimension, particles)."""
     return np.take_along_axis(np.stack(options), chosen[None, None, :], axis=0)[0]

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective, Optimizer, Start
 from hysteresis_plugins.optimizers._settings import at_least, between
 
@@ -42,7 +42,7 @@ class ScipyBasinHopping(Optimizer):
 
         from hysteresis_plugins.optimizers._scipy import UNLIMITED, descent, with_gradient
 
-        def hopped(point: NDArray) -> NDArray:
+        def hopped(point: Array) -> Array:
             return np.clip(point + rng.uniform(-self.hop, self.hop, point.shape), 0.0, 1.0)
 
         basinhopping(

@@ -7,7 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
+
+from hysteresis_bench.arrays import Array
 
 PERMEABILITY = 4e-7 * math.pi
 
@@ -19,16 +20,16 @@ class Material(NamedTuple):
     saturation : M_s, A/m;  reversible : r;  softness : a, A/m
     """
 
-    coercive: NDArray
-    width: NDArray
-    share: NDArray
+    coercive: Array
+    width: Array
+    share: Array
     saturation: float
     reversible: float
     softness: float
 
 
 @njit(cache=True, error_model="numpy")
-def _magnetized(h: float, state: NDArray, material: Material) -> tuple[float, float]:
+def _magnetized(h: float, state: Array, material: Material) -> tuple[float, float]:
     """Magnetization and its slope at the field h, with memory `state`, which is left as it is."""
     total = 0.0
     slope = 0.0
@@ -47,13 +48,13 @@ def _magnetized(h: float, state: NDArray, material: Material) -> tuple[float, fl
 
 
 @njit(cache=True, error_model="numpy")
-def _remember(h: float, state: NDArray, coercive: NDArray) -> None:
+def _remember(h: float, state: Array, coercive: Array) -> None:
     for j in range(state.size):
         state[j] = min(h + coercive[j], max(h - coercive[j], state[j]))
 
 
 @njit(cache=True, error_model="numpy")
-def uniform(surface: NDArray, material: Material) -> tuple[NDArray, NDArray]:
+def uniform(surface: Array, material: Material) -> tuple[Array, Array]:
     """A rod without eddy currents: field and magnetization, float64[samples, 1] in A/m. As `diffused`."""
     field, magnetization = np.empty((surface.size, 1)), np.empty((surface.size, 1))
     state = np.zeros(material.coercive.size)
@@ -66,8 +67,8 @@ def uniform(surface: NDArray, material: Material) -> tuple[NDArray, NDArray]:
 
 @njit(cache=True, error_model="numpy")
 def diffused(
-    surface: NDArray, step: float, radius: float, shells: int, resistivity: float, material: Material
-) -> tuple[NDArray, NDArray]:
+    surface: Array, step: float, radius: float, shells: int, resistivity: float, material: Material
+) -> tuple[Array, Array]:
     """Axial field in a long conducting rod: dB/dt = resistivity (1/r) d/dr (r dH/dr), B = mu_0 (H + M(H)).
 
     Finite volumes of equal thickness, backward Euler, Newton on the tridiagonal system of every step.

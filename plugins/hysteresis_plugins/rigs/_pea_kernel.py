@@ -11,8 +11,8 @@ from typing import NamedTuple
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.second_order import transition
 
 VOLTAGE, DEVIATION, VELOCITY, PROMPT, CREPT, PLAYS = range(6)
@@ -24,23 +24,23 @@ class Physics(NamedTuple):
     amplifier_lag: float  # s
     instantaneous: float  # um/V, what follows the voltage without memory
     weight: float  # um/V, of every play operator
-    radii: NDArray  # V, half widths of the play operators
+    radii: Array  # V, half widths of the play operators
     saturation: float  # um, infinite where off
     asymmetry: float  # 1/um
     creep: float  # of every creep element, 1
-    creep_times: NDArray  # s
+    creep_times: Array  # s
     damping: float  # 1/s
     stiffness: float  # 1/s^2, infinite where the stage is rigid
     step: float  # s, longest internal step
 
 
-def rest(k: Physics) -> NDArray:
+def rest(k: Physics) -> Array:
     """The depolarised ceramic at 0 V, at rest."""
     return np.zeros(PLAYS + k.radii.size + k.creep_times.size)
 
 
 @njit(cache=True, error_model="numpy")
-def _ceramic(state: NDArray, voltage: float, k: Physics) -> float:
+def _ceramic(state: Array, voltage: float, k: Physics) -> float:
     """Move the play operators to this voltage -> prompt displacement of the ceramic, um."""
     polarised = k.instantaneous * voltage
     for i in range(k.radii.size):
@@ -52,7 +52,7 @@ def _ceramic(state: NDArray, voltage: float, k: Physics) -> float:
 
 
 @njit(cache=True, error_model="numpy")
-def advance(state: NDArray, first: float, last: float, duration: float, k: Physics) -> NDArray:
+def advance(state: Array, first: float, last: float, duration: float, k: Physics) -> Array:
     """The state after the command has gone linearly from first to last within the duration; a new array.
 
     state : float64[...], see the module;  first, last : V;  duration : s
@@ -86,7 +86,7 @@ def advance(state: NDArray, first: float, last: float, duration: float, k: Physi
 
 
 @njit(cache=True, error_model="numpy")
-def simulate(state: NDArray, time: NDArray, voltage: NDArray, k: Physics) -> NDArray:
+def simulate(state: Array, time: Array, voltage: Array, k: Physics) -> Array:
     """Displacement at every sample, um; time : float64[samples] s, voltage : float64[samples] V, linear between.
 
     The first sample's voltage is applied long before: all but hysteresis and creep have settled on it.

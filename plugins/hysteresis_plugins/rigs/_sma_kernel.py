@@ -6,8 +6,8 @@
 
 import numpy as np
 from numba import njit
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_plugins.rigs import _sma_mechanics
 from hysteresis_plugins.rigs._sma_mechanics import Physics
 
@@ -104,7 +104,7 @@ def rates(
 
 
 @njit(cache=True, error_model="numpy")
-def simulate(time: NDArray, voltage: NDArray, step: float, k: Physics) -> NDArray:
+def simulate(time: Array, voltage: Array, step: float, k: Physics) -> Array:
     """From rest at ambient temperature, all martensite; each voltage holds until the next time.
 
     time, voltage : float64[samples], s and V

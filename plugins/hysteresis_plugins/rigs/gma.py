@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Rig
 from hysteresis_bench.signals import Dataset, Record
 
@@ -115,7 +115,7 @@ class GmaRig(Rig):
         }
         return Dataset((record,), hidden=hidden)
 
-    def displacement(self, time: NDArray, current: NDArray) -> NDArray:
+    def displacement(self, time: Array, current: Array) -> Array:
         """What the rod's end does, um, without sensor noise; time in s, evenly spaced, current in A."""
         from hysteresis_bench.kernels.second_order import second_order
         from hysteresis_plugins.rigs._gma_rod import diffused, uniform
@@ -133,7 +133,7 @@ class GmaRig(Rig):
         rate, spring = PRINTED["damping"] / PRINTED["mass"], PRINTED["stiffness"] / PRINTED["mass"]
         return 1e6 * second_order(time, deflection, np.array([rate]), np.array([spring]))[:, 0]
 
-    def strain(self, relative: NDArray) -> NDArray:
+    def strain(self, relative: Array) -> Array:
         """Magnetostriction at M / M_s: the even series of Jiles, J. Phys. D 28 (1995) 1537, to the fourth power."""
         quartic = QUARTIC if self.strain_saturation else 0.0
         return 1.5 * STRICTION * (relative**2 + quartic * relative**4)

@@ -10,8 +10,8 @@ from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.random import Generator, default_rng
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model, Rig
 from hysteresis_bench.signals import Dataset, Record, Signal
 from hysteresis_plugins.models.bouc_wen import BoucWen
@@ -148,14 +148,14 @@ class HiddenEffects(Rig):
         left = target - basis @ np.linalg.lstsq(basis, target, rcond=None)[0]
         return float(np.sqrt(np.mean(left**2)))
 
-    def _setting(self, experiment: str) -> tuple[NDArray, NDArray, NDArray]:
+    def _setting(self, experiment: str) -> tuple[Array, Array, Array]:
         """Time in s, drive and temperature in degC, on the fine grid."""
         time = np.arange(SAMPLES * FINER) * (DURATION / (SAMPLES * FINER))
         number = list(self.experiments).index(experiment)
         temperature = 22.0 + 9.0 * np.sin(2.0 * np.pi * (time / (1.3 * DURATION) + 0.37 * number))
         return time, MODELS[self.model][1] * _DRIVES[experiment](time), temperature
 
-    def _response(self, experiment: str, strengths: dict[str, float]) -> NDArray:
+    def _response(self, experiment: str, strengths: dict[str, float]) -> Array:
         """The output without noise on the fine grid, with effects of these strengths."""
         model, amplitude, centre = MODELS[self.model]
         time, drive, temperature = self._setting(experiment)
@@ -180,15 +180,15 @@ class HiddenEffects(Rig):
 class _Given:
     """What effects on the output may depend on; top : the output at the largest drive."""
 
-    time: NDArray
-    drive: NDArray
-    temperature: NDArray
+    time: Array
+    drive: Array
+    temperature: Array
     step: float
     amplitude: float
     top: float
 
 
-def _lagged(x: NDArray, constant: float, step: float) -> NDArray:
+def _lagged(x: Array, constant: float, step: float) -> Array:
     """First order, explicit Euler with the mean of both ends."""
     share, state = step / max(constant, step), float(x[0])
     out = np.empty_like(x)
@@ -199,7 +199,7 @@ def _lagged(x: NDArray, constant: float, step: float) -> NDArray:
     return out
 
 
-def _between_walls(u: NDArray, half: float) -> NDArray:
+def _between_walls(u: Array, half: float) -> Array:
     """A body that is pushed by two walls around it."""
     out, body = np.empty_like(u), float(u[0])
     for k, middle in enumerate(u.tolist()):
@@ -208,7 +208,7 @@ def _between_walls(u: NDArray, half: float) -> NDArray:
     return out
 
 
-def _sprung(x: NDArray, period: float, damping: float, step: float) -> NDArray:
+def _sprung(x: Array, period: float, damping: float, step: float) -> Array:
     """A mass on a spring and damper, semi-implicit Euler in ten parts of a step."""
     omega, place, speed = 2.0 * np.pi / period, float(x[0]), 0.0
     out, part = np.empty_like(x), step / 10.0
@@ -222,32 +222,32 @@ def _sprung(x: NDArray, period: float, damping: float, step: float) -> NDArray:
     return out
 
 
-def _crept(y: NDArray, s: float, g: _Given, r: NDArray) -> NDArray:
+def _crept(y: Array, s: float, g: _Given, r: Array) -> Array:
     late = 0.6 * s / 3.0
     times = 0.04 * 8.0 ** r[0] * np.array([0.3, 1.0, 3.0])
     return (1.0 - 3.0 * late) * y + late * sum(_lagged(y, float(tau), g.step) for tau in times)
 
 
-def _shifted(y: NDArray, s: float, g: _Given, r: NDArray) -> NDArray:
+def _shifted(y: Array, s: float, g: _Given, r: Array) -> Array:
     late = max(1, round(LONGEST * s / g.step))
     return np.concatenate([np.full(late, y[0]), y[:-late]])
 
 
-def _tired(y: NDArray, s: float, g: _Given, r: NDArray) -> NDArray:
+def _tired(y: Array, s: float, g: _Given, r: Array) -> Array:
     path = np.append(0.0, np.cumsum(np.abs(np.diff(g.drive)))) / (40.0 * g.amplitude)
     return y * np.exp2(-3.0 * s * path)
 
 
-def _hummed(y: NDArray, s: float, g: _Given, r: NDArray) -> NDArray:
+def _hummed(y: Array, s: float, g: _Given, r: Array) -> Array:
     return y + 0.3 * s * g.top * np.cos(2.0 * np.pi * ((11.0 + 25.0 * r[0]) * g.time + r[1]))
 
 
-_ON_INPUT: dict[str, Callable[[NDArray, float, float, float, NDArray], NDArray]] = {
+_ON_INPUT: dict[str, Callable[[Array, float, float, float, Array], Array]] = {
     "input-lag": lambda u, s, amplitude, step, r: _lagged(u, LONGEST * s, step),
     "asymmetry": lambda u, s, amplitude, step, r: u * (1.0 + np.sign(r[0] - 0.5) * 0.45 * s * u / amplitude),
     "backlash": lambda u, s, amplitude, step, r: _between_walls(u, 0.25 * s * amplitude),
 }
-_ON_OUTPUT: dict[str, Callable[[NDArray, float, _Given, NDArray], NDArray]] = {
+_ON_OUTPUT: dict[str, Callable[[Array, float, _Given, Array], Array]] = {
     "saturation": lambda y, s, g, r: np.tanh(2.0 * s * y / g.top) * g.top / (2.0 * s),
     "fatigue": _tired,
     "temperature-sensitivity": lambda y, s, g, r: y * (1.0 + 0.04 * s * (g.temperature - 20.0)),
@@ -260,7 +260,7 @@ _ON_OUTPUT: dict[str, Callable[[NDArray, float, _Given, NDArray], NDArray]] = {
 }
 
 
-def _stairs(time: NDArray) -> NDArray:
+def _stairs(time: Array) -> Array:
     """Nine levels, each reached within 80 ms and held."""
     levels = np.array([0.0, 0.6, 1.0, 0.3, -0.5, -1.0, -0.2, 0.8, -0.7, 0.0])
     starts = np.arange(1, levels.size) * DURATION / levels.size
@@ -268,7 +268,7 @@ def _stairs(time: NDArray) -> NDArray:
     return np.interp(time, at, np.ravel(np.column_stack([levels[:-1], levels[1:]])))
 
 
-_DRIVES: dict[str, Callable[[NDArray], NDArray]] = {
+_DRIVES: dict[str, Callable[[Array], Array]] = {
     "slow": lambda t: np.sin(2.0 * np.pi * t) * (1.0 - 0.2 * t),
     "fast": lambda t: np.sin(6.0 * np.pi * t) * (0.4 + 0.2 * t),
     "nested": lambda t: 0.7 * np.sin(2.0 * np.pi * 0.6 * t) + 0.3 * np.sin(2.0 * np.pi * 2.1 * t),

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Rig
 from hysteresis_bench.signals import Dataset, Record
 
@@ -96,13 +96,13 @@ class PeaRig(Rig):
         units = {"time": "s", "input": "V", "output": "um"}
         return Dataset((Record(time, voltage, displacement, experiment, units),), hidden=self.hidden)
 
-    def drive(self, experiment: str) -> tuple[NDArray, NDArray]:
+    def drive(self, experiment: str) -> tuple[Array, Array]:
         """Time in s and voltage in V of an experiment. Raises ValueError for an unknown one."""
         if experiment not in _DRIVES:
             raise ValueError(f'no experiment "{experiment}". Known: {", ".join(self.experiments)}')
         return _DRIVES[experiment]()
 
-    def simulate(self, time: NDArray, voltage: NDArray) -> NDArray:
+    def simulate(self, time: Array, voltage: Array) -> Array:
         """The true displacement in um from rest; time : (samples,) s, voltage : (samples,) V, linear between
         its samples, cut at the voltage limit."""
         from hysteresis_plugins.rigs._pea_kernel import rest, simulate
@@ -110,7 +110,7 @@ class PeaRig(Rig):
         voltage = np.clip(np.asarray(voltage, dtype=float), -self.voltage_limit, self.voltage_limit)
         return simulate(rest(self.physics), np.asarray(time, dtype=float), voltage, self.physics)
 
-    def sensed(self, displacement: NDArray, rng: Generator) -> NDArray:
+    def sensed(self, displacement: Array, rng: Generator) -> Array:
         """What the sensor reads: (samples,) um -> same shape."""
         reading = displacement + self.noise * rng.standard_normal(displacement.shape)
         return self.resolution * np.round(reading / self.resolution) if self.resolution > 0.0 else reading
@@ -176,17 +176,17 @@ class Plant:
     physics: Physics
     interval: float
 
-    def rest(self) -> NDArray:
+    def rest(self) -> Array:
         """The state of the depolarised ceramic at 0 V, at rest."""
         from hysteresis_plugins.rigs._pea_kernel import rest
 
         return rest(self.physics)
 
-    def step(self, state: NDArray, voltage: float) -> NDArray:
+    def step(self, state: Array, voltage: float) -> Array:
         """The state one interval later; the voltage is held, and cut at the rig's limit, as a converter does."""
         return self.ramp(state, voltage, voltage)
 
-    def ramp(self, state: NDArray, first: float, last: float) -> NDArray:
+    def ramp(self, state: Array, first: float, last: float) -> Array:
         """The state one interval later; the voltage goes linearly from first to last, cut at the limit."""
         from hysteresis_plugins.rigs._pea_kernel import advance
 
@@ -194,51 +194,51 @@ class Plant:
         first, last = (float(min(max(voltage, -limit), limit)) for voltage in (first, last))
         return advance(state, first, last, self.interval, self.physics)
 
-    def displacement(self, state: NDArray) -> float:
+    def displacement(self, state: Array) -> float:
         """The true displacement, um."""
         from hysteresis_plugins.rigs._pea_kernel import CREPT, DEVIATION
 
         return float(state[CREPT] + state[DEVIATION])
 
-    def read(self, state: NDArray, rng: Generator) -> float:
+    def read(self, state: Array, rng: Generator) -> float:
         """What the sensor reads, um."""
         return float(self.rig.sensed(np.array(self.displacement(state)), rng))
 
 
-def _grid(duration: float, samples: int = SAMPLES) -> NDArray:
+def _grid(duration: float, samples: int = SAMPLES) -> Array:
     return np.arange(samples) * (duration / samples)
 
 
-def _sine(frequency: float, duration: float) -> tuple[NDArray, NDArray]:
+def _sine(frequency: float, duration: float) -> tuple[Array, Array]:
     time = _grid(duration)
     return time, AMPLITUDE * np.sin(2.0 * np.pi * frequency * time)
 
 
-def _sweep(lowest: float, highest: float, duration: float, samples: int) -> tuple[NDArray, NDArray]:
+def _sweep(lowest: float, highest: float, duration: float, samples: int) -> tuple[Array, Array]:
     """Frequency rises linearly in time."""
     time = _grid(duration, samples)
     turns = lowest * time + (highest - lowest) * time**2 / (2.0 * duration)
     return time, AMPLITUDE * np.sin(2.0 * np.pi * turns)
 
 
-def _damped(frequency: float, duration: float) -> tuple[NDArray, NDArray]:
+def _damped(frequency: float, duration: float) -> tuple[Array, Array]:
     """Amplitude falls exponentially to a twentieth."""
     time, voltage = _sine(frequency, duration)
     return time, voltage * 0.05 ** (time / duration)
 
 
-def _ramp(duration: float) -> tuple[NDArray, NDArray]:
+def _ramp(duration: float) -> tuple[Array, Array]:
     time = _grid(duration)
     return time, AMPLITUDE * (1.0 - np.abs(2.0 * time / duration - 1.0))
 
 
-def _complex(duration: float) -> tuple[NDArray, NDArray]:
+def _complex(duration: float) -> tuple[Array, Array]:
     time = _grid(duration)
     parts = [np.sin(2.0 * np.pi * frequency * time) for frequency in (10.0, 20.0, 30.0, 40.0, 50.0)]
     return time, AMPLITUDE / len(parts) * np.sum(parts, axis=0)
 
 
-_DRIVES: dict[str, Callable[[], tuple[NDArray, NDArray]]] = {
+_DRIVES: dict[str, Callable[[], tuple[Array, Array]]] = {
     "static-sine": lambda: _sine(0.5, 6.0),
     "sweep": lambda: _sweep(0.1, 50.0, 10.0, 20_000),
     "sine-10-hz": lambda: _sine(10.0, 1.2),

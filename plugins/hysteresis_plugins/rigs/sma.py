@@ -8,8 +8,8 @@ from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.random import Generator
-from numpy.typing import NDArray
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Rig
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_plugins.rigs._sma_mechanics import Physics, mechanics
@@ -21,12 +21,12 @@ RATE = 10.0  # samples a second; ours, so that two cycles of 60 s are 1200 sampl
 class Truth(NamedTuple):
     """What happens in the rig, free of noise; (samples,) each."""
 
-    jacket: NDArray  # degC
-    reading: NDArray  # degC, the sensor's
-    wire: NDArray  # degC, the temperature that acts on the phases
-    martensite: NDArray  # fraction of the driven wire
-    stress: NDArray  # Pa, of the driven wire
-    angle: NDArray  # deg
+    jacket: Array  # degC
+    reading: Array  # degC, the sensor's
+    wire: Array  # degC, the temperature that acts on the phases
+    martensite: Array  # fraction of the driven wire
+    stress: Array  # Pa, of the driven wire
+    angle: Array  # deg
 
 
 @dataclass(frozen=True)
@@ -136,7 +136,7 @@ class SmaRig(Rig):
         record = Record(time, reading, angle, experiment, units, {"voltage": voltage})
         return Dataset((record,), hidden=self.hidden)
 
-    def simulate(self, time: NDArray, voltage: NDArray) -> Truth:
+    def simulate(self, time: Array, voltage: Array) -> Truth:
         """The noise-free truth at these times from rest; time : (samples,) s, voltage : (samples,) V, each
         held until the next sample."""
         from hysteresis_plugins.rigs._sma_kernel import simulate
@@ -210,28 +210,28 @@ class SmaRig(Rig):
         return found
 
 
-def _pulses(durations: Sequence[float]) -> tuple[NDArray, NDArray]:
+def _pulses(durations: Sequence[float]) -> tuple[Array, Array]:
     """Supply on, off, on, ... for these durations in s -> time, voltage."""
     counts = np.rint(np.asarray(durations) * RATE).astype(int)
     levels = np.where(np.arange(counts.size) % 2 == 0, SUPPLY, 0.0)
     return np.arange(counts.sum()) / RATE, np.repeat(levels, counts)
 
 
-def _ramps(cycles: int, period: float, interval: float) -> tuple[NDArray, NDArray]:
+def _ramps(cycles: int, period: float, interval: float) -> tuple[Array, Array]:
     """Heating power in triangles, sampled at the interval, both in s -> time, voltage."""
     time = np.arange(round(cycles * period / interval)) * interval
     phase = time / period % 1.0
     return time, SUPPLY * np.sqrt(1.0 - np.abs(2.0 * phase - 1.0))
 
 
-def _staircase(hold: float) -> tuple[NDArray, NDArray]:
+def _staircase(hold: float) -> tuple[Array, Array]:
     """Heating power in quarters, up and down, each held so long in s -> time, voltage."""
     power = np.array([0.25, 0.5, 0.75, 1.0, 0.75, 0.5, 0.25, 0.0])
     voltage = np.repeat(SUPPLY * np.sqrt(power), round(hold * RATE))
     return np.arange(voltage.size) / RATE, voltage
 
 
-_DRIVES: dict[str, Callable[[], tuple[NDArray, NDArray]]] = {
+_DRIVES: dict[str, Callable[[], tuple[Array, Array]]] = {
     "pwm-50s": lambda: _pulses([25.0] * 4),
     "pwm-60s": lambda: _pulses([30.0] * 4),
     "pwm-60s-long": lambda: _pulses([30.0] * 12),

@@ -1,0 +1,155 @@
+"""Regression whose errors are autocorrelated, so that n samples are not taken for n independent ones.
+
+The errors are taken for an autoregression (order by BIC), errors and columns are filtered to make them white
+(Cochrane and Orcutt [1]), and an F test compares the regressions with and without the columns in question.
+Its degrees of freedom are those of the effective sample size (Geyer's initial positive sequence [2]), ours:
+with few effective samples the autoregression is itself uncertain, and the plain F test claims too much.
+
+A residual and its columns are lists, one array a record: filters and lags never reach across records.
+
+[1] D. Cochrane, G. H. Orcutt, J. Am. Stat. Assoc. 44 (1949) 32.  [2] C. J. Geyer, Stat. Sci. 7 (1992) 473.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+
+Parts = Sequence[Array]
+
+ORDERS = 12
+TINY = 1e-12
+"""Below this share of the sum of squares lies only rounding."""
+
+
+@dataclass(frozen=True)
+class FTest:
+    """Do the columns explain the residual? share : of its variance, by least squares."""
+
+    statistic: float
+    p: float
+    share: float
+
+
+def autoregression(errors: Parts) -> Array:
+    """Coefficients a_1..a_p of e_i = sum a_j e_(i-j) + white, order by BIC, pooled over the records."""
+    top = min(ORDERS, min(error.size for error in errors) // 10)
+    if top < 1:
+        return np.zeros(0)
+    lagged = [np.column_stack([error[top - j : error.size - j] for j in range(top + 1)]) for error in errors]
+    product = np.sum([part.T @ part for part in lagged], axis=0)
+    samples = sum(part.shape[0] for part in lagged)
+    if product[0, 0] <= 0:
+        return np.zeros(0)
+    best, chosen = samples * np.log(product[0, 0] / samples), np.zeros(0)
+    for order in range(1, top + 1):
+        inside = slice(1, order + 1)
+        coefficients = np.linalg.lstsq(product[inside, inside], product[inside, 0], rcond=1e-12)[0]
+        left = product[0, 0] - coefficients @ product[inside, 0]
+        criterion = samples * np.log(max(left, TINY * product[0, 0]) / samples) + order * np.log(samples)
+        if criterion < best:
+            best, chosen = criterion, coefficients
+    return chosen
+
+
+def whitened(values: Parts, coefficients: Array) -> list[Array]:
+    """Each record's (samples,) or (samples, columns) filtered by 1 - sum a_j B^j; the first p samples are lost."""
+    order = coefficients.size
+    return [
+        value[order:] - sum((a * value[order - j : len(value) - j] for j, a in enumerate(coefficients, 1)), 0.0)
+        for value in values
+    ]
+
+
+def correlations(errors: Parts) -> Array:
+    """Autocorrelation at lags 0..n/2 of the shortest record, pooled; 1 at lag 0. Means are not taken off."""
+    length = max(2, min(error.size for error in errors) // 2)
+    total = np.zeros(length)
+    for error in errors:
+        power = np.abs(np.fft.rfft(error, 2 * error.size)) ** 2
+        total += np.fft.irfft(power)[:length]
+    return total / total[0] if total[0] > 0 else np.eye(1, length)[0]
+
+
+def effective_samples(errors: Parts) -> float:
+    """How many independent samples the errors are worth for a mean; at most their number."""
+    correlation = correlations(errors)
+    pairs = correlation[: correlation.size // 2 * 2].reshape(-1, 2).sum(axis=1)
+    ends = np.nonzero(pairs <= 0)[0]
+    positive = np.minimum.accumulate(pairs[: ends[0] if ends.size else pairs.size])
+    samples = sum(error.size for error in errors)
+    return float(samples / max(2.0 * positive.sum() - 1.0, 1.0))
+
+
+def f_test(errors: Parts, columns: Parts, nuisance: Parts | None = None, level: bool = True) -> FTest:
+    """errors : (samples,) a record; columns, nuisance : (samples, any) a record.
+
+    nuisance : columns that the errors may depend on anyhow; with `level`, so may each record's mean
+    """
+    apart = constants(errors) if level else [np.zeros((error.size, 0)) for error in errors]
+    if nuisance is not None:
+        apart = [np.column_stack([one, other]) for one, other in zip(apart, nuisance, strict=True)]
+    e, z, x = np.concatenate(list(errors)), np.concatenate(apart), np.concatenate(list(columns))
+    before, rank_before = _squares(e, z)
+    after, rank_after = _squares(e, np.column_stack([z, x]))
+    added = rank_after - rank_before
+    if added == 0 or before <= TINY * TINY * max(e @ e, 1e-300):
+        return FTest(0.0, 1.0, 0.0)
+    share = max(0.0, 1.0 - after / before)
+    left = split(left_over(e, np.column_stack([z, x])), errors)
+    coefficients = autoregression(left)
+    e, z, x = (np.concatenate(whitened(part, coefficients)) for part in (list(errors), apart, list(columns)))
+    white_before, rank_before = _squares(e, z)
+    white_after, rank_after = _squares(e, np.column_stack([z, x]))
+    added = rank_after - rank_before
+    if added == 0:
+        return FTest(0.0, 1.0, share)
+    freedom = e.size - rank_after
+    statistic = (white_before - white_after) / added / max(white_after / freedom, TINY * white_before / freedom)
+    # The columns took their share of the slow part of the errors, which the autoregression then misses.
+    effective = effective_samples(left)
+    corrected = statistic * effective / (effective + 2.0 * rank_after)
+    return FTest(float(statistic), f_tail(corrected, added, effective - rank_after), share)
+
+
+def f_tail(statistic: float, above: float, below: float) -> float:
+    """P(F > statistic); at least 4 degrees of freedom below, where the estimate of their number is rough."""
+    from scipy.stats import f
+
+    return float(f.sf(max(statistic, 0.0), above, max(below, 4.0)))
+
+
+def constants(errors: Parts) -> list[Array]:
+    """One column a record: 1 inside it, 0 elsewhere."""
+    return [np.tile(row, (error.size, 1)) for row, error in zip(np.eye(len(errors)), errors, strict=True)]
+
+
+def split(joined: Array, like: Parts) -> list[Array]:
+    """Cut what was concatenated back into records."""
+    return np.split(joined, np.cumsum([len(part) for part in like])[:-1])
+
+
+def left_over(e: Array, columns: Array) -> Array:
+    """What least squares leaves of e."""
+    basis = _basis(columns)
+    return e - basis @ (basis.T @ e)
+
+
+def _squares(e: Array, columns: Array) -> tuple[float, int]:
+    basis = _basis(columns)
+    left = e - basis @ (basis.T @ e)
+    return float(left @ left), basis.shape[1]
+
+
+def _basis(columns: Array) -> Array:
+    """Orthonormal basis of the columns' span; columns that say the same as others are dropped."""
+    size = np.linalg.norm(columns, axis=0)
+    scaled = columns[:, size > 0] / size[size > 0]
+    if scaled.shape[1] == 0:
+        return np.zeros((len(columns), 0))
+    vectors, values, _ = np.linalg.svd(scaled, full_matrices=False)
+    return vectors[:, values > 1e-7 * values[0]]

@@ -1,0 +1,196 @@
+"""Laws without memory of past extrema: static curves and linear dynamics of the input, as columns of a regression.
+
+A curve is a cubic spline. Where there is a time base it may be a curve of the delayed or lagged input, a lagged
+curve, or a curve and a resonance, plus a spectrum of first-order lags. All are linear in what is fitted but for
+one number each.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence import covariates
+from hysteresis_bench.diagnosis.evidence.noise import fast_noise
+from hysteresis_bench.signals import Record
+
+INTERVALS = 14
+LAGS = 6
+SHARED_DELAYS = np.geomspace(2e-3, 0.25, 9)
+"""Delays and lags tried for all records alike, as shares of their shortest period."""
+
+DAMPINGS = (0.03, 0.1, 0.3)
+
+OWN_DELAY = 0.015
+"""A record's own delay is at most this share of its period: an instrument's, not a law."""
+
+MOST = 3000
+"""Samples beyond which records are thinned: the question is about shapes, not about digits."""
+
+
+@dataclass(frozen=True, eq=False)
+class View:
+    """A record with its history, and which of its samples count."""
+
+    time: Array
+    u: Array
+    y: Array
+    keep: Array
+    turns: Array
+
+    @property
+    def period(self) -> float:
+        """Typical duration of a cycle."""
+        if self.turns.size >= 2:
+            return 2.0 * float(np.median(np.diff(self.time[self.turns])))
+        return 2.0 * float(self.time[-1] - self.time[0]) / (self.turns.size + 1)
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """name : in words; delays : of each record; columns : (counted samples of all records, any) each."""
+
+    name: str
+    delays: tuple[float, ...]
+    columns: list[Array]
+
+
+Score = Callable[[Law], float]
+
+
+def views_of(records: Sequence[Record]) -> list[View]:
+    """The records, thinned to MOST counted samples. Raises ValueError where one has no output."""
+    """The records, thinned to MOST counted samples. Raises ValueError where one has no output."""
+    thin = max(1, -(-sum(record.measured.size for record in records) // MOST))
+    views = []
+    for record in records:
+        u, keep = record.input, np.arange(record.history, record.time.size, thin)
+        resolution = covariates.resolution_of(u, fast_noise(record.time, u)[0])
+        turns = covariates.turning_points(u, resolution)
+        views.append(View(record.time, u, record.measured[::thin], keep, turns))
+    return views
+
+
+class Spline:
+    """Cubic B-splines of the scaled input on even intervals, and the cubic that they share; no constant."""
+
+    def __init__(self, inputs: Sequence[Array]) -> None:
+        joined = np.concatenate(list(inputs))
+        self.middle, self.half = 0.5 * float(joined.max() + joined.min()), 0.5 * float(np.ptp(joined)) or 1.0
+        self.knots = np.concatenate([[-1.0] * 3, np.linspace(-1.0, 1.0, INTERVALS + 1), [1.0] * 3])
+
+    def scaled(self, values: Array) -> Array:
+        return (values - self.middle) / self.half
+
+    def of(self, views: Sequence[View], inputs: Sequence[Array]) -> list[Array]:
+        """Columns of each record's counted samples; inputs : (samples,) a record."""
+        from scipy.interpolate import BSpline
+
+        parts = []
+        for view, values in zip(views, inputs, strict=True):
+            x = np.clip(self.scaled(values[view.keep]), -1.0, 1.0)
+            parts.append(np.hstack([x[:, None] ** (1, 2, 3), BSpline.design_matrix(x, self.knots, 3).toarray()]))
+        return parts
+
+
+def delayed_curve(views: Sequence[View], spline: Spline, delays: Sequence[float]) -> Array:
+    """The spline of the input, each record's by its delay earlier; all records in one."""
+    """The spline of the input, each record's by its delay earlier; all records in one."""
+    late = [covariates.delayed(view.time, view.u, delay) for view, delay in zip(views, delays, strict=True)]
+    return np.vstack(spline.of(views, late))
+
+
+def lagged_laws(views: Sequence[View], spline: Spline, score: Score) -> list[Law]:
+    """The best curve of the delayed input, of the lagged input, lagged curve, and curve with a resonance, alike for
+    all records; and the curve of the input with each record's short delay. Each plus a spectrum of lags."""
+    lags, still = lags_of(views), tuple(0.0 for _ in views)
+    curves = spline.of(views, [view.u for view in views])
+
+    def late(value: float) -> Law:
+        delays = (value,) * len(views)
+        return Law(f"curve of the input {value:.3g} ago", delays, [delayed_curve(views, spline, delays), lags])
+
+    def wiener(value: float) -> Law:
+        lagged = [covariates.low_pass(view.time, view.u, value) for view in views]
+        return Law(f"curve of the input lagged by {value:.3g}", still, [np.vstack(spline.of(views, lagged)), lags])
+
+    def hammerstein(value: float) -> Law:
+        lagged = [
+            covariates.low_pass(view.time[view.keep], part, value) for view, part in zip(views, curves, strict=True)
+        ]
+        return Law(f"curve of the input, lagged by {value:.3g}", still, [np.vstack(lagged), lags])
+
+    def resonance(value: float) -> Law:
+        modes = np.vstack([_modes(view, 1.0 / value) for view in views])
+        return Law(f"curve of the input and a resonance at {1 / value:.3g} rad", still, [static, modes, lags])
+
+    static = np.vstack(curves)
+    grid = SHARED_DELAYS * min(view.period for view in views)
+    own = own_delays(views, spline)
+    even = all(np.ptp(np.diff(view.time)) < 1e-6 * (view.time[1] - view.time[0]) for view in views)
+    families = (late, wiener, hammerstein, resonance) if even else (late, wiener, hammerstein)
+    return [
+        *(_refined(family, grid, score) for family in families),
+        Law(f"{own.name}, and lags", own.delays, [*own.columns, lags]),
+    ]
+
+
+def _refined(family: Callable[[float], Law], grid: Array, score: Score) -> Law:
+    """The best of a family of one parameter: on the grid, then between its neighbours there."""
+    from scipy.optimize import minimize_scalar
+
+    best = int(np.argmin([score(family(value)) for value in grid]))
+    bounds = (np.log(grid[max(best - 1, 0)]), np.log(grid[min(best + 1, grid.size - 1)]))
+    found = minimize_scalar(lambda x: score(family(np.exp(x))), bounds=bounds, method="bounded", options={"maxiter": 8})
+    return min((family(float(np.exp(found.x))), family(float(grid[best]))), key=score)
+
+
+def _modes(view: View, frequency: float) -> Array:
+    """Position and velocity of second-order systems of this natural frequency (rad per unit of time) and several
+    dampings, exact for a piecewise linear, evenly sampled input, at rest at first."""
+    from scipy.signal import cont2discrete, lfilter
+
+    columns, step = [], float(view.time[1] - view.time[0])
+    for damping in DAMPINGS:
+        for numerator in ([1.0], [1.0 / frequency, 0.0]):
+            denominator = [1.0 / frequency**2, 2.0 * damping / frequency, 1.0]
+            b, a, _ = cont2discrete((numerator, denominator), step, method="foh")
+            columns.append(lfilter(b.ravel(), a, view.u - view.u[0])[view.keep])
+    return np.column_stack(columns)
+
+
+def own_delays(views: Sequence[View], spline: Spline) -> Law:
+    """The curve of the input with each record's own short delay."""
+    """The curve of the input with each record's own short delay."""
+    delays = tuple(_own_delay(view) for view in views)
+    columns = [delayed_curve(views, spline, delays)]
+    return Law("curve of the input, each record with a short delay", delays, columns)
+
+
+def _own_delay(view: View) -> float:
+    """The short delay that makes this record's output most nearly a curve of its input."""
+    from scipy.optimize import minimize_scalar
+
+    spline = Spline([view.u[view.keep]])
+    own = np.column_stack([np.ones(view.y.size), np.linspace(-1.0, 1.0, view.y.size)])
+
+    def left(delay: float) -> float:
+        columns = np.hstack([own, delayed_curve([view], spline, [delay])])
+        errors = view.y - columns @ np.linalg.lstsq(columns, view.y, rcond=1e-10)[0]
+        return float(errors @ errors)
+
+    limit = OWN_DELAY * view.period
+    return float(minimize_scalar(left, bounds=(-limit, limit), method="bounded", options={"xatol": 1e-3 * limit}).x)
+
+
+def lags_of(views: Sequence[View]) -> Array:
+    """The input through first-order lags, from a few samples to a third of the longest record."""
+    shortest = 2.0 * float(np.median(np.concatenate([np.diff(view.time) for view in views])))
+    longest = max(float(view.time[-1] - view.time[0]) for view in views) / 3.0
+    constants = np.geomspace(shortest, max(longest, 2.0 * shortest), LAGS)
+    return np.vstack(
+        [np.column_stack([covariates.low_pass(view.time, view.u, c)[view.keep] for c in constants]) for view in views]
+    )

@@ -1,0 +1,257 @@
+"""How loud is the noise? Estimated from the data alone, without a model.
+
+A smooth signal is a polynomial over a few neighbouring samples, so its divided difference of high order in
+time vanishes and what is left is noise: scaled to unit weight, its RMS is the noise's [1, 2]. Reversals,
+steps and switching are no polynomials; they are a small share of the samples and are clipped.
+
+What is estimated is the noise that changes from sample to sample. Noise that is correlated over many samples
+looks smooth and is missed: `by_lag` repeats the estimate on every second and fourth sample and rises where
+noise is coloured (or the signal no longer smooth), and `repeat_rms` compares the cycles of a periodic input
+with one another, which sees noise of any colour, and with it all that is not a function of the input's cycle.
+
+[1] J. von Neumann et al., Ann. Math. Stat. 12 (1941) 153.  [2] P. Hall, J. W. Kay, D. M. Titterington,
+Biometrika 77 (1990) 521.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import comb, sqrt
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.signals import Record
+
+ORDERS = (2, 3, 4, 5, 6, 8, 10, 12)
+"""Orders tried. A higher one forgets more of the signal and costs precision."""
+
+LAGS = (1, 2, 4)
+CLIP = 3.0
+"""Differences beyond so many times the noise are no noise but a kink."""
+
+MISSED = 0.25
+"""Of the arc between two samples, what a model of the samples gets wrong: it sees no reversal at its very peak."""
+
+ARITHMETIC = 1e-10
+"""Share of the largest value below which it is no noise but how a computed signal was rounded: the sine of a large
+phase has lost some digits."""
+
+COLOURED = 1.2
+"""Repeats that differ by so many times the fast noise make the noise coloured."""
+
+
+@dataclass(frozen=True)
+class Noise:
+    """Noise of one record, or pooled over several.
+
+    rms, standard_error : of the output's fast noise, unit of the output; at least the quantisation's
+    input_rms : of the input's fast noise, unit of the input; 0 where the input is a noise-free command
+    through_input : what the input's noise makes of the output, by the local slope, unit of the output
+    repeat_rms : noise of any colour from the repeats of a periodic input; None without repeats
+    by_lag : estimates from samples 1, 2 and 4 apart; equal where noise is white
+    quantum : step of the output's grid of values, 0 where there is none
+    samples : that the estimate rests on
+    """
+
+    rms: float
+    standard_error: float
+    input_rms: float
+    through_input: float
+    repeat_rms: float | None
+    by_lag: tuple[float, ...]
+    quantum: float
+    samples: int
+
+    @property
+    def floor(self) -> float:
+        """The RMS residual that a perfect model leaves: output noise, and input noise through the slope."""
+        return float(np.hypot(self.rms, self.through_input))
+
+    @property
+    def degrees_of_freedom(self) -> float:
+        """Of a chi-square variable as uncertain as the estimate."""
+        return 0.5 * (self.rms / self.standard_error) ** 2 if self.standard_error > 0 else float(self.samples)
+
+    @property
+    def coloured(self) -> bool:
+        """Repeats differ by clearly more than the fast noise tells."""
+        return self.repeat_rms is not None and self.repeat_rms > COLOURED * max(self.rms, 1e-300)
+
+    @property
+    def words(self) -> str:
+        told = [f"noise {self.rms:.3g} ± {self.standard_error:.1g}"]
+        if self.quantum > 0 and self.rms <= 1.01 * self.quantum / sqrt(12):
+            told.append(f"it is the rounding to steps of {self.quantum:.3g}")
+        if self.through_input > 0.2 * self.rms:
+            told.append(f"noise of the input ({self.input_rms:.3g}) adds {self.through_input:.3g}")
+        if self.coloured:
+            told.append(f"cycles differ by {self.repeat_rms:.3g}: coloured noise, or something beside the input")
+        return "; ".join(told)
+
+
+def noise(record: Record) -> Noise:
+    """Noise of one record, from its scored samples. Raises ValueError where there is no output."""
+    y, u, time = record.measured, record.input[record.scored], record.time[record.scored]
+    quantum = grid_step(y)
+    fast, error = fast_noise(time, y)
+    input_rms = fast_noise(time, u)[0]
+    return Noise(
+        rms=max(fast, quantum / sqrt(12)),
+        standard_error=error,
+        input_rms=input_rms,
+        through_input=input_rms * _slope(time, u, y, input_rms),
+        repeat_rms=_repeat_noise(u, y),
+        by_lag=tuple(fast_noise(time, y, lag)[0] for lag in LAGS),
+        quantum=quantum,
+        samples=y.size,
+    )
+
+
+def pooled_noise(records: Sequence[Record]) -> Noise:
+    """Noise of all records together: mean squares weighted by their samples."""
+    parts = [noise(record) for record in records]
+    samples = sum(part.samples for part in parts)
+    weights = np.array([part.samples / samples for part in parts])
+
+    def pooled(values: Sequence[float]) -> float:
+        return float(np.sqrt(weights @ np.square(values)))
+
+    rms = pooled([part.rms for part in parts])
+    variances = [part.rms * part.standard_error * weight for part, weight in zip(parts, weights, strict=True)]
+    repeats = [part.repeat_rms for part in parts]
+    return Noise(
+        rms=rms,
+        standard_error=float(np.linalg.norm(variances)) / rms if rms > 0 else 0.0,
+        input_rms=pooled([part.input_rms for part in parts]),
+        through_input=pooled([part.through_input for part in parts]),
+        repeat_rms=pooled([value for value in repeats if value is not None]) if None not in repeats else None,
+        by_lag=tuple(pooled(values) for values in zip(*(part.by_lag for part in parts), strict=True)),
+        quantum=max(part.quantum for part in parts),
+        samples=samples,
+    )
+
+
+def unresolved(records: Sequence[Record]) -> float:
+    """What the samples miss of the input between them, as an error of the output (RMS, unit of the output): MISSED
+    times the sag of a typical arc between two samples, by the ratio of the ranges."""
+    sags = []
+    for record in records:
+        u = record.input
+        sag = float(np.median(np.abs(u[2:] - 2.0 * u[1:-1] + u[:-2]))) / 8.0 if u.size > 2 else 0.0
+        sags.append(sag * float(np.ptp(record.measured)) / (float(np.ptp(u)) or 1.0))
+    return MISSED * float(np.sqrt(np.mean(np.square(sags))))
+
+
+def fast_noise(time: Array, values: Array, lag: int = 1) -> tuple[float, float]:
+    """RMS of the sample-to-sample noise and its standard error, unit of the values; (0, 0) of a constant.
+
+    time, values : (samples,); lag : distance of the samples compared
+    The lowest order whose estimate is no worse than that of the higher ones, within their scatter.
+    """
+    orders = [order for order in ORDERS if 4 * order * lag < values.size]
+    if not orders or np.ptp(values) == 0:
+        return 0.0, 0.0
+    estimates, errors = np.array([_of_order(time, values, order, lag) for order in orders]).T
+    limit = np.min(estimates + errors)
+    chosen = int(np.argmax(estimates <= limit))
+    arithmetic = ARITHMETIC * float(np.max(np.abs(values)))
+    return (float(estimates[chosen]), float(errors[chosen])) if estimates[chosen] > arithmetic else (0.0, 0.0)
+
+
+def _of_order(time: Array, values: Array, order: int, lag: int) -> tuple[float, float]:
+    windows = values.size - order * lag
+    samples = np.arange(windows)[:, None] + lag * np.arange(order + 1)
+    nodes = time[samples] - time[samples].mean(axis=1, keepdims=True)
+    nodes /= np.ptp(nodes, axis=1)[:, None]
+    weights = np.ones(samples.shape)
+    for j in range(order + 1):  # weights of the divided difference: 1 / prod (t_i - t_j)
+        for k in range(order + 1):
+            if k != j:
+                weights[:, j] /= nodes[:, j] - nodes[:, k]
+    weights /= np.linalg.norm(weights, axis=1)[:, None]
+    differences = np.einsum("ij,ij->i", weights, values[samples])
+    rms, kept = clipped_rms(differences)
+    # Neighbouring differences overlap: their squared correlations sum to C(4k, 2k) / C(2k, k)^2.
+    overlap = comb(4 * order, 2 * order) / comb(2 * order, order) ** 2
+    return rms, rms * sqrt(overlap / (2.0 * max(kept, 1)))
+
+
+def clipped_rms(values: Array) -> tuple[float, int]:
+    """RMS of normal noise of mean zero among outliers, and how many values it rests on.
+
+    Starts at the median absolute value and clips, corrected for the tail that clipping takes off.
+    """
+    from scipy.stats import norm
+
+    size = np.abs(values)
+    rms = float(np.median(size)) / norm.ppf(0.75)
+    kept = size.size
+    shrink = sqrt(1.0 - 2.0 * CLIP * norm.pdf(CLIP) / (2.0 * norm.cdf(CLIP) - 1.0))
+    for _ in range(20):
+        inside = size <= CLIP * rms
+        kept = int(np.count_nonzero(inside))
+        new = float(np.sqrt(np.mean(size[inside] ** 2))) / shrink if kept else 0.0
+        if abs(new - rms) <= 1e-4 * rms:
+            return new, kept
+        rms = new
+    return float(rms), kept
+
+
+def grid_step(values: Array) -> float:
+    """The step of the grid on which all values lie (a converter's or a file's rounding), or 0."""
+    levels = np.unique(values)
+    steps = np.diff(levels)
+    steps = steps[steps > 1e-9 * max(np.ptp(levels), np.finfo(float).tiny)]
+    if steps.size < 2:
+        return float(steps[0]) if steps.size else 0.0
+    step = float(np.min(steps))
+    multiples = steps / step
+    return step if np.all(np.abs(multiples - np.rint(multiples)) < 0.05) else 0.0
+
+
+def _slope(time: Array, u: Array, y: Array, input_rms: float) -> float:
+    """RMS of the local slope dy/du, by straight lines in time through a few samples; clear movement only."""
+    half = max(3, min(7, u.size // 20))
+    if input_rms == 0.0 or u.size < 4 * half:
+        return 0.0
+    samples = np.arange(u.size - 2 * half)[:, None] + np.arange(2 * half + 1)
+    nodes = time[samples] - time[samples].mean(axis=1, keepdims=True)
+    du, dy = (np.sum(nodes * values[samples], axis=1) for values in (u, y))
+    clear = np.abs(du) > 4.0 * input_rms * np.linalg.norm(nodes, axis=1)
+    return float(np.sqrt(np.mean((dy[clear] / du[clear]) ** 2))) if np.any(clear) else 0.0
+
+
+def period(u: Array) -> int | None:
+    """The period of the input in samples, where it repeats at least three times; else None.
+
+    u : (samples,)
+    """
+    span = float(np.ptp(u))
+    if span == 0.0:
+        return None
+    centred = u - u.mean()
+    power = np.abs(np.fft.rfft(centred, 2 * u.size)) ** 2
+    overlap = np.arange(u.size, 0, -1)
+    correlation = np.fft.irfft(power)[: u.size] / overlap
+    peaks = np.nonzero((correlation[1:-1] >= correlation[:-2]) & (correlation[1:-1] > correlation[2:]))[0] + 1
+    for peak in peaks[(peaks >= 8) & (peaks <= u.size // 3)][:50].tolist():
+        # The ends of the record shift the peak by a sample or two.
+        mismatches = {lag: float(np.sqrt(np.mean((u[lag:] - u[:-lag]) ** 2))) for lag in range(peak - 3, peak + 4)}
+        lag = min(mismatches, key=lambda lag: mismatches[lag])
+        if mismatches[lag] < 0.01 * span:
+            return lag
+    return None
+
+
+def _repeat_noise(u: Array, y: Array) -> float | None:
+    """Noise of any colour from y_1 - 2 y_2 + y_3 over successive cycles, which a steady drift leaves alone."""
+    lag = period(u)
+    if lag is None:
+        return None
+    differences = (y[: -2 * lag] - 2.0 * y[lag:-lag] + y[2 * lag :]) / sqrt(6.0)
+    mismatch = (u[: -2 * lag] - 2.0 * u[lag:-lag] + u[2 * lag :]) / sqrt(6.0)
+    rms = clipped_rms(differences)[0]
+    unlike = float(np.sqrt(np.mean(mismatch**2))) * float(np.ptp(y)) / float(np.ptp(u))
+    return rms if unlike < 0.5 * rms or rms == 0.0 else None

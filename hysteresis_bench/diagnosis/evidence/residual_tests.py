@@ -1,0 +1,265 @@
+"""What is left in a residual: tests per record and overall, each with its p-value in plain words.
+
+Dependence is tested by regression with autocorrelated errors (`coloured`), so that n samples are not taken
+for n independent ones. The spectrum is tested against its own smooth background, coherence between segments.
+p-values are corrected by Holm for all tests made. A test that cannot be made (no time base, no temperature,
+one cycle) is left out.
+
+[1] G. M. Ljung, G. E. P. Box, Biometrika 65 (1978) 297.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates, spectrum
+from hysteresis_bench.diagnosis.evidence.noise import Noise, period
+from hysteresis_bench.signals import Record
+from hysteresis_bench.stats import LEVEL, holm
+
+OVERALL = "all"
+FEWEST = 40
+"""Samples below which a record is only told of together with the others."""
+
+
+@dataclass(frozen=True)
+class ResidualTest:
+    """One test of one record, or of all together.
+
+    p, corrected_p : before and after Holm's correction for all tests made
+    share : of the residual's variance that the finding explains, 0 to 1
+    """
+
+    record: str
+    name: str
+    statistic: float
+    p: float
+    corrected_p: float
+    share: float
+    words: str
+
+    @property
+    def significant(self) -> bool:
+        return self.corrected_p < LEVEL
+
+
+@dataclass(frozen=True, eq=False)
+class _View:
+    """A record's scored samples, and what may explain its residual; columns are (samples, any)."""
+
+    record: Record
+    residual: Array
+    noise: Noise
+
+    @cached_property
+    def u(self) -> Array:
+        return self.record.input[self.record.scored]
+
+    @cached_property
+    def time(self) -> Array:
+        return self.record.time[self.record.scored]
+
+    @cached_property
+    def turns(self) -> Array:
+        """Turning points of the whole input, history included, as samples of the scored part."""
+        u = self.record.input
+        turns = covariates.turning_points(u, covariates.resolution_of(u, self.noise.input_rms))
+        return turns - self.record.history
+
+    @cached_property
+    def rate(self) -> Array:
+        return np.gradient(self.u, self.time)
+
+    @property
+    def step(self) -> float:
+        return float(np.mean(np.diff(self.time)))
+
+    @property
+    def even(self) -> bool:
+        return bool(np.ptp(np.diff(self.time)) < 0.01 * self.step)
+
+    def scaled_input(self, low: float, high: float) -> Array:
+        return (2.0 * self.u - low - high) / (high - low)
+
+
+def residual_tests(
+    records: Sequence[Record], residuals: Sequence[Array], noises: Sequence[Noise]
+) -> list[ResidualTest]:
+    """Every test of every record, and of all together where there are several.
+
+    residuals : (scored samples,) a record, of either sign; noises : each record's, from `noise.noise`
+    """
+    views = [_View(*triple) for triple in zip(records, residuals, noises, strict=True)]
+    found: list[ResidualTest] = []
+    for view in views:
+        if len(views) == 1 or view.residual.size >= FEWEST:
+            found += _tests(view.record.name, [view])
+    if len(views) > 1:
+        found += _tests(OVERALL, views)
+    corrected = holm([test.p for test in found]) if found else []
+    return [_told(replace(test, corrected_p=p)) for test, p in zip(found, corrected, strict=True)]
+
+
+def _told(test: ResidualTest) -> ResidualTest:
+    verdict = "" if test.significant else "no evidence that "
+    share = f" ({test.share:.0%} of its variance)" if test.significant and test.share >= 0.005 else ""
+    return replace(test, words=f"{verdict}the residual {test.words}{share}, p = {test.corrected_p:.2g}")
+
+
+def _tests(name: str, views: Sequence[_View]) -> Iterator[ResidualTest]:
+    def test(kind: str, statistic: float, p: float, share: float, words: str) -> ResidualTest:
+        return ResidualTest(name, kind, float(statistic), float(p), 1.0, float(np.clip(share, 0.0, 1.0)), words)
+
+    residuals = [view.residual for view in views]
+    if all(np.ptp(part) == 0 and part[0] == 0 for part in residuals) or sum(part.size for part in residuals) < 16:
+        return
+    yield test("noise-floor", *_noise_floor(views), "is larger than the noise in the data")
+    yield test("whiteness", *_whiteness(residuals), "is correlated from sample to sample")
+    level = autocorrelated.f_test(residuals, autocorrelated.constants(residuals), level=False)
+    yield test("offset", level.statistic, level.p, level.share, "has a mean that is not zero")
+    for kind, columns, nuisance, words in _dependences(views):
+        answer = autocorrelated.f_test(residuals, columns, nuisance)
+        yield test(kind, answer.statistic, answer.p, answer.share, words)
+    for kind, columns, words in _scatters(views):
+        answer = autocorrelated.f_test(_sizes(residuals), columns)
+        yield test(kind, answer.statistic, answer.p, answer.share, words)
+    if all(view.record.timed and view.even for view in views):
+        longest = max(views, key=lambda view: view.residual.size)
+        if longest.residual.size >= spectrum.FEWEST:
+            line = spectrum.line(longest.residual, longest.step)
+            words = f"has a spectral line at {line.frequency:.4g} Hz{_drive(longest, line.frequency)}"
+            yield test("spectral-line", line.ratio, line.p, line.share, words)
+            yield test("coherence", *spectrum.coherence(longest.residual, longest.u), "follows the input linearly")
+
+
+def _noise_floor(views: Sequence[_View]) -> tuple[float, float, float]:
+    """Mean square over noise^2, an F ratio; both with the degrees of freedom that autocorrelation leaves."""
+    residuals = [view.residual for view in views]
+    samples = np.array([part.size for part in residuals])
+    square = sum(float(part @ part) for part in residuals) / samples.sum()
+    floor = sum(n * view.noise.floor**2 for n, view in zip(samples, views, strict=True)) / samples.sum()
+    freedom = sum(view.noise.degrees_of_freedom for view in views)
+    if floor <= 0.0:
+        return np.inf, 0.0, 1.0
+    correlation = autocorrelated.correlations(residuals)
+    own = samples.sum() / (2.0 * np.sum(correlation**2) - 1.0)
+    return square / floor, autocorrelated.f_tail(square / floor, own, freedom), 1.0 - floor / max(square, floor)
+
+
+def _whiteness(residuals: Sequence[Array]) -> tuple[float, float, float]:
+    """[1] Ljung-Box, summed over the records; about 10 log10(n) lags, spread up to a tenth of the record."""
+    from scipy.stats import chi2
+
+    statistic, freedom, left, whole = 0.0, 0, 0.0, 0.0
+    for part in residuals:
+        e = part - part.mean()
+        lags = int(min(10.0 * np.log10(e.size), e.size // 5))
+        if lags < 1 or not e @ e > 0:
+            continue
+        power = np.abs(np.fft.rfft(e, 2 * e.size)) ** 2
+        r = np.fft.irfft(power)[1 : lags + 1] / (e @ e)
+        statistic += e.size * (e.size + 2.0) * float(np.sum(r**2 / (e.size - np.arange(1, lags + 1))))
+        freedom += lags
+        innovation = autocorrelated.whitened([e], autocorrelated.autoregression([e]))[0]
+        left, whole = left + float(np.mean(innovation**2)) * e.size, whole + float(e @ e)
+    return statistic, float(chi2.sf(statistic, freedom)) if freedom else 1.0, 1.0 - left / whole if whole else 0.0
+
+
+def _dependences(views: Sequence[_View]) -> Iterator[tuple[str, list[Array], list[Array] | None, str]]:
+    """Name, columns in question, columns that may count anyhow, words."""
+    low, high = min(float(view.u.min()) for view in views), max(float(view.u.max()) for view in views)
+    if high <= low:
+        return
+    x = [view.scaled_input(low, high) for view in views]
+    inputs = [legvander(part, 4)[:, 1:] for part in x]
+    yield "input", inputs, None, "depends on the input"
+    directions = [covariates.branch(view.u, _inside(view.turns, view.u.size)) for view in views]
+    yield "direction", [part[:, None] for part in directions], None, "differs between rising and falling input"
+    if any(view.turns.size for view in views):
+        past = [
+            part - (2.0 * view.record.input[_last(view)] - low - high) / (high - low)
+            for part, view in zip(x, views, strict=True)
+        ]
+        columns = [np.column_stack([part, part * np.abs(part), np.abs(part)]) for part in past]
+        yield "past-extrema", columns, inputs, "depends on where the input last turned"
+    if max(view.turns.size for view in views) >= 6:
+        cycles = [covariates.cycle(view.u.size, view.turns) for view in views]
+        most = max(float(part.max()) for part in cycles)
+        columns = [np.column_stack([part / most, part / most * inner]) for part, inner in zip(cycles, x, strict=True)]
+        yield "cycle", columns, inputs, "changes from cycle to cycle"
+    if all(view.record.timed for view in views):
+        fastest = max(float(np.max(np.abs(view.rate))) for view in views)
+        rates = [view.rate / fastest for view in views]
+        yield (
+            "rate",
+            [np.column_stack([part, part * np.abs(part)]) for part in rates],
+            None,
+            "depends on the input's rate",
+        )
+        elapsed = [(view.time - view.record.time[0]) for view in views]
+        longest = max(float(part[-1]) for part in elapsed)
+        times = [np.column_stack([part / longest, np.log1p(100.0 * part / longest)]) for part in elapsed]
+        yield "time", times, None, "drifts in time"
+    if all("temperature" in view.record.columns for view in views):
+        heat = [view.record.columns["temperature"][view.record.scored] for view in views]
+        joined = np.concatenate(heat)
+        if np.ptp(joined) > 0:
+            heat = [(part - joined.mean()) / np.ptp(joined) for part in heat]
+            columns = [np.column_stack([part, part * inner]) for part, inner in zip(heat, x, strict=True)]
+            yield "temperature", columns, inputs, "depends on the temperature"
+
+
+def _scatters(views: Sequence[_View]) -> Iterator[tuple[str, list[Array], str]]:
+    middle = 0.5 * (min(float(view.u.min()) for view in views) + max(float(view.u.max()) for view in views))
+    yield (
+        "scatter-input",
+        [np.abs(view.u - middle)[:, None] for view in views],
+        "scatters more at some inputs than at others",
+    )
+    if all(view.record.timed for view in views):
+        yield (
+            "scatter-rate",
+            [np.abs(view.rate)[:, None] for view in views],
+            "scatters more at some rates than at others",
+        )
+        times = [(view.time - view.time[0])[:, None] for view in views]
+        yield "scatter-time", times, "scatters more at some times than at others"
+
+
+def _sizes(residuals: Sequence[Array]) -> list[Array]:
+    """Size of the whitened residual; what the filter loses at the start is filled with the mean."""
+    centred = [part - part.mean() for part in residuals]
+    white = [np.abs(part) for part in autocorrelated.whitened(centred, autocorrelated.autoregression(centred))]
+    mean = float(np.mean(np.concatenate(white)))
+    return [
+        np.concatenate([np.full(part.size - size.size, mean), size])
+        for part, size in zip(residuals, white, strict=True)
+    ]
+
+
+def _inside(turns: Array, samples: int) -> Array:
+    return turns[(turns > 0) & (turns < samples - 1)]
+
+
+def _last(view: _View) -> Array:
+    """Index, in the whole record, of the last turning point before each scored sample."""
+    turns = np.concatenate([[0], view.turns + view.record.history])
+    return turns[np.searchsorted(turns, np.arange(view.record.history, view.record.input.size), side="right") - 1]
+
+
+def _drive(view: _View, frequency: float) -> str:
+    """What the line has to do with a periodic input."""
+    lag = period(view.u)
+    if lag is None:
+        return ""
+    multiple = frequency * lag * view.step
+    whole = round(multiple)
+    if whole >= 1 and abs(multiple - whole) * view.u.size / lag < 1.5:
+        return f", {whole} times the input's frequency"
+    return ", no multiple of the input's frequency"

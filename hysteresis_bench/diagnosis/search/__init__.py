@@ -1,0 +1,1 @@
+"""Hypotheses, a model with effects around it: fitted, tested, selected."""

@@ -1,0 +1,117 @@
+"""Where an effect belongs in the stack around a model, and which effects can be tried on given records."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+
+from hysteresis_bench import registry
+from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Effect, Model
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import Record
+
+INNER = (
+    "eddy-current",
+    "rayleigh-hysteresis",
+    "backlash",
+    "asymmetry",
+    "input-lag",
+    "saturation",
+    "fatigue",
+    "temperature-sensitivity",
+    "creep",
+    "output-lag",
+    "resonance",
+    "transport-delay",
+)
+OUTER = ("periodic-disturbance", "drift", "description", "bias", "record-drift", "record-offset")
+"""Innermost first: what acts on the input, then on the response, then what is added to it. An effect that is
+not named here, such as one of another distribution, stands between the two."""
+
+OFFSETS = ("bias", "record-offset")
+NO_CLAIM = (*OFFSETS, "record-drift", "description")
+"""Nuisances that the user or the search puts there, and what is described and not explained: no candidates."""
+
+
+def place(name: str) -> tuple[int, str]:
+    """Sorts effects from the innermost to the outermost."""
+    if name in OUTER:
+        return len(INNER) + 1 + OUTER.index(name), name
+    return (INNER.index(name) if name in INNER else len(INNER)), name
+
+
+@dataclass(frozen=True, eq=False)
+class Stack:
+    """A model, and systems made of it and of effects given by name; the records that are fitted.
+
+    own : effects that the user put around the model to begin with, always there
+    bounds : replaces parts of the boxes that follow from the records
+    fixed : parameters that are known
+    ready : effects with settings of their own, by name
+    """
+
+    model: Model
+    records: tuple[Record, ...]
+    own: tuple[str, ...] = ()
+    bounds: Mapping[str, tuple[float, float]] | None = None
+    fixed: Mapping[str, float] | None = None
+    ready: Mapping[str, Effect] = field(default_factory=dict)
+
+    def effect(self, name: str) -> Effect:
+        """An effect, with its default settings where none is ready: the model's own, where it offers one of this
+        name."""
+        if name in self.ready:
+            return self.ready[name]
+        return self.model.offers[name] if name in self.model.offers else _built(name)
+
+    def system(self, names: Collection[str]) -> System:
+        """The model with these effects in their places."""
+        outside = sorted({*names, *self.own}, key=place)
+        return System(self.model, tuple((name, self.effect(name)) for name in outside), self.fixed or {})
+
+    def problem(self, names: Collection[str]) -> Problem:
+        """Their least-squares problem; boxes follow from the fitted records."""
+        key = frozenset(names)
+        if key not in self._problems:
+            self._problems[key] = self._problem(key)
+        return self._problems[key]
+
+    @cached_property
+    def _problems(self) -> dict[frozenset[str], Problem]:
+        return {}
+
+    def _problem(self, names: frozenset[str]) -> Problem:
+        system = self.system(names)
+        boxes = [
+            p.within(*self.bounds[p.name], "linear" if self.bounds[p.name][0] <= 0 else p.scaling)
+            if self.bounds and p.name in self.bounds
+            else p
+            for p in system.box(self.records)
+        ]
+        return Problem(system, self.records, Space(tuple(boxes)), LOSSES["rmse"])
+
+    def candidates(self) -> tuple[tuple[str, ...], dict[str, str]]:
+        """Names of the effects that can be tried, and of those that cannot, with the reason."""
+        possible, impossible = [], {}
+        known = {*registry.names("effects"), *registry.offered()}
+        for name in sorted(known - {*NO_CLAIM, *self.own}):
+            if name not in self.model.offers and name not in registry.names("effects"):
+                impossible[name] = "it acts inside the state equation, and this model does not offer it"
+            elif name not in self.model.offers and (fault := registry.load("effects", name).fault):
+                impossible[name] = f"broken: {fault}"
+            elif reason := self.effect(name).inapplicable(self.records):
+                impossible[name] = reason
+            else:
+                possible.append(name)
+        return tuple(possible), impossible
+
+
+@cache
+def _built(name: str) -> Effect:
+    """Built once, as finding a plugin takes a while."""
+    effect: Effect = registry.build("effects", name)
+    return effect

@@ -1,0 +1,1 @@
+"""How often is the diagnosis right? Cases with known truth."""

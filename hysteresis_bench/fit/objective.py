@@ -1,0 +1,178 @@
+"""The meter: a loss on the unit box that counts evaluations, refuses the one past the budget, and records."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
+from hysteresis_bench.fit.loss import Loss
+from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import Record
+
+CEILING = 1e9
+"""Errors are cut at this many times the largest measured |output|: what a simulation that has left every
+reasonable range, or is NaN, is worth. Finite, because NaN makes pymoo's CMA-ES hang and inf ends nlopt's
+DIRECT-L after 9 calls."""
+
+BLOCK_BYTES = 4 << 20
+"""Simulated output of a block of a swarm: large enough for the paper's 50 particles on 6000 samples at once."""
+LEAST_BLOCK = 16
+"""Columns below which a kernel no longer fills its vector lanes."""
+
+
+class BudgetSpent(BaseException):
+    """The search is over. Not an Exception, so that no library's handler mistakes it for a failed call."""
+
+
+class OutsideBox(ValueError):
+    """An optimizer proposed a point outside the unit box."""
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """What is to be identified: a system, the records it must reproduce, a search space, a loss."""
+
+    system: System
+    records: tuple[Record, ...]
+    space: Space
+    loss: Loss
+
+    @cached_property
+    def samples(self) -> int:
+        """Number of scored samples over all records."""
+        return sum(record.measured.size for record in self.records)
+
+    @cached_property
+    def scale(self) -> float:
+        """Largest |output| measured, the y_max of the papers."""
+        return max(float(np.max(np.abs(record.measured))) for record in self.records) or 1.0
+
+    @cached_property
+    def ceiling(self) -> float:
+        """The finite loss that answers NaN and infinity."""
+        return float(self.loss.of(np.array(self.samples * (CEILING * self.scale) ** 2), self.samples, self.scale))
+
+    @cached_property
+    def block(self) -> int:
+        """Columns simulated at once, a multiple of 8 lanes."""
+        longest = max(record.time.size for record in self.records)
+        return max(LEAST_BLOCK, BLOCK_BYTES // (8 * longest) // 8 * 8)
+
+    def squares(self, points: Array) -> Array:
+        """Sum of squared errors over all scored samples; points : (dimension, swarm) in the unit box."""
+        from hysteresis_bench.kernels.squares import sum_of_squares
+
+        values = np.ascontiguousarray(self.space.from_unit(points))
+        total = np.zeros(values.shape[1])
+        for first in range(0, values.shape[1], self.block):
+            columns = slice(first, first + self.block)
+            part = np.ascontiguousarray(values[:, columns])
+            for record in self.records:
+                simulated = self.system.respond(record, part)
+                total[columns] += sum_of_squares(simulated[record.scored], record.measured)
+        return total
+
+    def losses(self, points: Array) -> Array:
+        """Losses of a swarm, every one finite: (dimension, swarm) -> (swarm,)."""
+        with np.errstate(over="ignore", invalid="ignore"):
+            losses = self.loss.of(self.squares(points), self.samples, self.scale)
+        return np.fmin(losses, self.ceiling)
+
+    def residuals(self, point: Array) -> Array:
+        """Simulated minus measured over all scored samples, finite; point : (dimension,) in the unit box."""
+        values = self.space.from_unit(point[:, None])
+        parts = [self.system.respond(record, values)[record.scored, 0] - record.measured for record in self.records]
+        limit = CEILING * self.scale
+        return np.clip(np.nan_to_num(np.concatenate(parts), nan=limit), -limit, limit)
+
+
+@dataclass(frozen=True, eq=False)
+class Trace:
+    """Best so far: one entry an improvement, which determines the best at every count of evaluations.
+
+    evaluations : (improvements,) count at which each was found, from 1
+    losses : (improvements,) strictly falling
+    points : (improvements, dimension) in units
+    """
+
+    evaluations: Array
+    losses: Array
+    points: Array
+
+    def best_at(self, evaluations: Array) -> Array:
+        """Best loss after so many evaluations; inf before the first one."""
+        position = np.searchsorted(self.evaluations, evaluations, side="right")
+        return np.concatenate([[np.inf], self.losses])[position]
+
+
+class Objective:
+    """A problem on a meter; contracts.Objective says what an optimizer may rely on."""
+
+    def __init__(self, problem: Problem, budget: int) -> None:
+        self._problem = problem
+        self.budget = budget
+        self.dimension = problem.space.dimension
+        self.evaluations = 0
+        self.best = np.inf
+        self._improvements: list[tuple[int, float, Array]] = []
+
+    @property
+    def best_point(self) -> Array | None:
+        """(dimension,) in the unit box, or None before the first evaluation."""
+        return self._improvements[-1][2] if self._improvements else None
+
+    @property
+    def trace(self) -> Trace:
+        evaluations = np.array([entry[0] for entry in self._improvements], dtype=np.int64)
+        losses = np.array([entry[1] for entry in self._improvements], dtype=float)
+        points = np.array([entry[2] for entry in self._improvements]).reshape(-1, self.dimension)
+        return Trace(evaluations, losses, self._problem.space.from_unit(points.T).T)
+
+    def __call__(self, point: Array) -> float:
+        return float(self.many(np.asarray(point, dtype=float).reshape(self.dimension, 1))[0])
+
+    def many(self, points: Array) -> Array:
+        points = np.asarray(points, dtype=float)
+        self._check(points)
+        affordable = points[:, : self._left()]
+        losses = self._problem.losses(affordable)
+        self._record(losses, affordable)
+        if affordable.shape[1] < points.shape[1]:
+            raise BudgetSpent
+        return losses
+
+    def residuals(self, point: Array) -> Array:
+        column = np.asarray(point, dtype=float).reshape(self.dimension, 1)
+        self._check(column)
+        self._left()
+        residuals = self._problem.residuals(column[:, 0])
+        squares = np.array([residuals @ residuals])
+        losses = self._problem.loss.of(squares, self._problem.samples, self._problem.scale)
+        self._record(np.fmin(losses, self._problem.ceiling), column)
+        return residuals
+
+    def _left(self) -> int:
+        left = self.budget - self.evaluations
+        if left <= 0:
+            raise BudgetSpent
+        return left
+
+    def _check(self, points: Array) -> None:
+        if points.ndim != 2 or points.shape[0] != self.dimension:
+            raise ValueError(f"points are (dimension, swarm) = ({self.dimension}, n), not {points.shape}")
+        if not np.all((points >= 0.0) & (points <= 1.0)):
+            row, column = np.argwhere(~((points >= 0.0) & (points <= 1.0)))[0]
+            raise OutsideBox(f"{self._problem.space.names[row]} = {points[row, column]:.6g} lies outside the unit box")
+
+    def _record(self, losses: Array, points: Array) -> None:
+        running = np.minimum.accumulate(np.concatenate([[self.best], losses]))
+        for index in np.nonzero(running[1:] < running[:-1])[0]:
+            self._improvements.append(
+                (self.evaluations + int(index) + 1, float(losses[index]), points[:, index].copy())
+            )
+        self.best = float(running[-1])
+        self.evaluations += losses.size

@@ -1,0 +1,51 @@
+"""Closed loops are repeated until they close: how often, and how far from closed a simulated loop still is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
+from hysteresis_bench.signals import Record
+
+CLOSED = 1e-3
+"""A settled loop's last two passes differ by less than this fraction of the range of the output."""
+
+FIRST_REPEATS, MOST_REPEATS = 2, 32
+"""Passes before a loop is scored: doubled until it closes, or until the fit says that it does not."""
+
+
+def open_loops(records: Sequence[Record]) -> list[str]:
+    """A sentence on every record that is no closed loop, so that it cannot be repeated."""
+    return [
+        f"record {record.name} is not a closed loop: its input begins at {record.input[0]:g} and ends at "
+        f"{record.input[-1]:g}. Leave --settle out, or cut the record to whole periods."
+        for record in records
+        if abs(record.input[-1] - record.input[0]) > 2 * float(np.max(np.abs(np.diff(record.input))))
+    ]
+
+
+def gap_after(system: System, records: Sequence[Record], values: Array, repeats: int) -> float:
+    """How far the last two passes of the worst loop differ, as a fraction of the range of its output.
+
+    values : (dimension,), in units;  records : preceded by `repeats` of themselves
+    """
+    gaps = []
+    for record in records:
+        simulated = system.respond(record, values[:, None])[:, 0]
+        period = record.time.size // (repeats + 1)
+        last, before = simulated[-period:], simulated[-2 * period : -period]
+        gaps.append(float(np.max(np.abs(last - before)) / (np.ptp(record.measured) or 1.0)))
+    return max(gaps)
+
+
+def not_closed(gap: float, repeats: int) -> list[str]:
+    """The sentence on a loop that does not close, or nothing."""
+    if gap < CLOSED:
+        return []
+    return [
+        f"After {repeats} passes the simulated loop still moves by {100 * gap:.1f} % of its range a pass: "
+        f"the model does not close this loop."
+    ]

@@ -1,0 +1,174 @@
+"""The page of a study of diagnosis: who was named, who was missed, what was claimed of clean data."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from hysteresis_bench.diagnosis_study.case import Case
+from hysteresis_bench.diagnosis_study.run import CASES, CONFUSION, NOTHING, STUDY, read_cases, read_diagnosis_study
+from hysteresis_bench.report.diagnosis.figures import confusion
+from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render, whole
+from hysteresis_bench.report.shared.theme import Picture
+from hysteresis_bench.stats import wilson
+
+FILE = "report.html"
+
+KNOWN = "hidden-effects"
+"""The rig whose hysteresis is the model's own."""
+
+GOOD = 1.15
+"""RMSE over noise up to which records that were neither fitted nor held out count as predicted."""
+
+SEEN = 2.0
+"""RMSE of the bare model over noise from which what is hidden is big enough to be asked for."""
+
+
+def write_closing_page(folder: Path) -> Path:
+    """Write report.html and figures/*.svg into the results folder of a study of diagnosis; returns the page."""
+    study, _ = read_diagnosis_study(folder / STUDY)
+    known, others = _halves(folder)
+    cases = [*known, *others]
+    page = folder / FILE
+    text = render(
+        "closing.html.j2",
+        title=study.title,
+        kicker=f"A study of diagnosis, {len(cases)} cases",
+        answer=_answer(known, others),
+        confusions=[each for each in (_confusion(folder, "known", known), _confusion(folder, "rigs", others)) if each],
+        benches=_benches([bench.name for bench in study.bench], cases),
+        wrong=_wrong([case for case in cases if case.status == "done" and not case.right]),
+        failures=_failures([case for case in cases if case.status != "done"]),
+        notes=study.notes,
+        files=[(CASES, "a row a case"), (CONFUSION, "hidden against claimed"), (STUDY, "the study")],
+    )
+    page.write_text(text, encoding="utf-8")
+    return page
+
+
+def told(folder: Path) -> list[str]:
+    """The answer in sentences."""
+    return _answer(*_halves(folder))
+
+
+def _answer(known: Sequence[Case], others: Sequence[Case]) -> list[str]:
+    found = []
+    for where, cases in (("where the hysteresis is the model's own", known), ("on the virtual rigs", others)):
+        done = [case for case in cases if case.status == "done"]
+        hidden = [case for case in done if case.hidden]
+        if not done:
+            continue
+        clean = [case for case in done if not case.hidden]
+        parts = []
+        if hidden:
+            parts.append(
+                f"in {_share([case.right for case in hidden])} of the cases with something hidden every effect was "
+                "named, or tied with one that these data cannot tell from it, and nothing else was claimed"
+            )
+            big = [case for case in hidden if (case.unfitted or 0.0) >= SEEN]
+            if len(big) < len(hidden):
+                parts.append(f"of those that at least double the bare model's error, {_share([c.right for c in big])}")
+        if clean:
+            parts.append(f"on clean data something was claimed in {_share([bool(case.claimed) for case in clean])}")
+        fresh = [case.fresh for case in done if case.fresh is not None]
+        if fresh:
+            parts.append(
+                f"records that were neither fitted nor held out were predicted to within {GOOD:g} times the noise in "
+                f"{_share([value <= GOOD for value in fresh])}"
+            )
+        found.append(f"{where[0].upper()}{where[1:]}: {'; '.join(parts)}.")
+    return found or ["No case has finished."]
+
+
+def _share(hits: Sequence[bool]) -> str:
+    """12 of 13 (92 %, 67 to 99 %), with Wilson's interval."""
+    if not hits:
+        return "none of none"
+    low, high = wilson(sum(hits), len(hits))
+    mean = sum(hits) / len(hits)
+    shares = [f"{100 * share:.0f}\u202f%" for share in (mean, low, high)]
+    return f"{sum(hits)} of {len(hits)} ({shares[0]}; 95\u202f% interval {shares[1]} to {shares[2]})"
+
+
+def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> tuple[str, Picture, Table] | None:
+    from hysteresis_bench.diagnosis_study.run import confusion as counted
+
+    table = counted(cases)
+    if table.empty:
+        return None
+    rows = sorted(table.index, key=lambda effect: (effect == NOTHING, effect))
+    columns = sorted(table.columns, key=lambda effect: (effect == NOTHING, effect))
+    counts = {(row, column): int(table.at[row, column]) for row in rows for column in columns if table.at[row, column]}
+    heading = "Where the hysteresis is the model's own" if name == "known" else "On the virtual rigs"
+    drawn = confusion(folder, f"confusion-{name}", counts, rows, columns)
+    lines: list[list[str | Cell]] = [
+        [row, *(_count(row, column, counts.get((row, column), 0)) for column in columns)] for row in rows
+    ]
+    note = "An effect that was missed stands under what was claimed in its place, or under nothing."
+    return heading, drawn, Table("Hidden (rows) against claimed (columns)", ["Hidden", *columns], lines, note=note)
+
+
+def _count(row: str, column: str, count: int) -> Cell:
+    if not count:
+        return Cell(NONE, "quiet")
+    return Cell(str(count), "good" if column in row.split("|") else "bad")
+
+
+def _benches(names: Sequence[str], cases: Sequence[Case]) -> Table:
+    rows: list[list[str | Cell]] = []
+    for name in names:
+        mine = [case for case in cases if case.bench == name and case.status == "done"]
+        if mine:
+            right = sum(case.right for case in mine)
+            rows.append(
+                [
+                    name,
+                    Cell(f"{right} of {len(mine)}", "good" if right == len(mine) else "bad"),
+                    *(number(_median([getattr(c, key) for c in mine]), 3) for key in ("before", "after", "fresh")),
+                    whole(_median([case.seconds for case in mine])),
+                ]
+            )
+    header = ["Bench", "Right", "Held out, before", "Held out, after", "Fresh, after", "Seconds"]
+    return Table("Bench by bench", header, rows, note="Median RMSE over the noise; 1 is as good as it gets.")
+
+
+def _median(values: Sequence[float | None]) -> float | None:
+    known = [value for value in values if value is not None]
+    return float(np.median(known)) if known else None
+
+
+def _wrong(cases: Sequence[Case]) -> Table:
+    rows: list[list[str | Cell]] = [
+        [
+            f"{case.bench}, {case.number}",
+            *(Cell(_names(text), "prose") for text in (case.hidden, case.claimed)),
+            Cell(_names(case.missed), "bad" if case.missed else ""),
+            Cell(_names(case.extra), "bad" if case.extra else ""),
+            case.verdict,
+            number(case.unfitted, 3),
+            number(case.after, 3),
+        ]
+        for case in cases
+    ]
+    header = ["Case", "Hidden", "Claimed", "Missed", "Extra", "Verdict", "Bare, over noise", "Held out, over noise"]
+    return Table("Cases that went wrong", header, rows)
+
+
+def _names(text: str) -> str:
+    return listed(text.split()) if text else NONE
+
+
+def _failures(cases: Sequence[Case]) -> Table:
+    rows: list[list[str | Cell]] = [
+        [f"{case.bench}, {case.number}", case.status, Cell(case.reason, "prose")] for case in cases
+    ]
+    return Table("Cases without a diagnosis", ["Case", "Status", "Reason"], rows)
+
+
+def _halves(folder: Path) -> tuple[list[Case], list[Case]]:
+    """Cases where the hysteresis is the model's own, and the others."""
+    rigs = {bench.name: bench.rig for bench in read_diagnosis_study(folder / STUDY)[0].bench}
+    cases = [case for case in read_cases(folder) if case.bench in rigs]
+    return [c for c in cases if rigs[c.bench] == KNOWN], [c for c in cases if rigs[c.bench] != KNOWN]

@@ -1,0 +1,77 @@
+"""What a fit leaves behind: model.json, tables, a page; and the same on the terminal."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pandas as pd
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from hysteresis_bench.fit.fitting import Fit
+from hysteresis_bench.fit.model_file import write_model
+from hysteresis_bench.report.fit.page import write_fit_page
+
+MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
+
+
+def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
+    """Write model.json, parameters.csv, responses.csv, figures and the page; returns the page."""
+    folder.mkdir(parents=True, exist_ok=True)
+    sums = [hashlib.sha256(file.read_bytes()).hexdigest() for file in files]
+    data = {"files": [str(file) for file in files], "sha256": sums, **fit.model.data}
+    write_model(folder / MODEL, replace(fit.model, data=data))
+    fit.parameters.to_csv(folder / PARAMETERS, index=False)
+    fit.responses.to_csv(folder / RESPONSES, index=False, float_format="%.8g")
+    told = {
+        "title": f"{fit.model.model} fitted to {', '.join(file.stem for file in files)}",
+        "model": fit.model.model,
+        "effects": list(fit.model.effects),
+        "units": dict(fit.model.units),
+        "parameters": _rows(fit.parameters),
+        "records": _rows(fit.records),
+        "notes": list(fit.notes),
+        "warnings": list(fit.warnings),
+        "agreement": fit.agreement,
+        "provenance": {
+            **fit.model.created_by,
+            **{f"sha256 of {file.name}": sha for file, sha in zip(files, sums, strict=True)},
+        },
+    }
+    return write_fit_page(folder, told, fit.responses)
+
+
+def print_fit(fit: Fit, console: Console) -> None:
+    """Parameters, errors, agreement and warnings."""
+    parameters = Table(title=f"{fit.model.model}: parameters", title_justify="left", box=None, title_style="bold")
+    for heading, side in (("parameter", "left"), ("value", "right"), ("± standard error", "right"), ("unit", "left")):
+        parameters.add_column(heading, justify=side)  # type: ignore[arg-type]
+    for row in fit.parameters.itertuples(index=False):
+        known = row.standard_error is not None and pd.notna(row.standard_error)
+        error = f"{row.standard_error:.2g}" if known else "not determined"
+        mark = "  at bound" if row.at_bound else ""
+        parameters.add_row(row.name, f"{row.value:.6g}", error, row.unit + mark, style="yellow" if mark else "")
+    console.print(parameters)
+    unit = fit.model.units["output"]
+    rmse = "RMSE" if unit == "1" else f"RMSE [{unit}]"
+    errors = Table(title="errors", title_justify="left", box=None, title_style="bold")
+    errors.add_column("record")
+    for heading in (rmse, "relative RMS", "largest error"):
+        errors.add_column(heading, justify="right")
+    errors.add_column("")
+    for row in fit.records.itertuples(index=False):
+        rms, largest = f"{100 * row.relative_rms:.2f} %", f"{100 * row.max_error:.2f} %"
+        errors.add_row(escape(row.record), f"{row.rmse:.4g}", rms, largest, row.role)
+    console.print(errors)
+    console.print(fit.agreement, style="" if fit.agrees else "bold yellow", highlight=False)
+    for warning in fit.warnings:
+        console.print(f"[yellow]note:[/] {escape(warning)}", highlight=False)
+
+
+def _rows(table: pd.DataFrame) -> list[dict]:
+    """Records of a table, absent values as None."""
+    return [{key: None if pd.isna(value) else value for key, value in row.items()} for row in table.to_dict("records")]

@@ -1,0 +1,1 @@
+"""What a study computes once its trials are in."""

@@ -1,0 +1,189 @@
+"""What follows a static problem: its linear section by least squares, and the whole model on further records."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Rig
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.model_file import Estimate, FittedModel
+from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import Record
+from hysteresis_bench.study.afterwards.linear_section import fitted
+from hysteresis_bench.study.problems import Built, build_problem, build_system
+from hysteresis_bench.study.results import FINISHED
+from hysteresis_bench.study.study_file import StageSpec, Study
+
+ClosedLoop = Callable[[FittedModel, Rig, str, int], pd.DataFrame]
+"""(fitted model, rig, the rig's name, seed) -> a row a controller and reference; it comes from the floor above."""
+
+COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")
+STAGED, HELD, FITTED, LARGEST, RMSE = "staged", "held", "fitted", "largest error", "rmse"
+TRACKING = {"t_error": "largest tracking error", "t_rmse": "tracking rmse"}
+BEST = "best of all"
+
+
+@dataclass(frozen=True, eq=False)
+class Whole:
+    """A whole model that came about in one of two ways: staged, or all at once (the problem's name).
+
+    rows : what stages.csv says of its parameters;  fault : why it cannot be used, or an empty string
+    """
+
+    optimizer: str
+    way: str
+    system: System
+    values: Array
+    rows: tuple[dict[str, Any], ...]
+    fault: str = ""
+
+
+def run_stages(
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], folder: Path, closed_loop: ClosedLoop | None = None
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses.
+
+    folder : where relative data files are looked for; closed_loop : runs the controllers of a stage that asks for
+    control, which is left out without. An absent number is None: the errors of a section that
+    is unstable, a standard error that the data cannot tell. Errors are in units of the output.
+    """
+    rows: list[dict[str, Any]] = []
+    parts: list[pd.DataFrame] = []
+    for stage in study.stage:
+        data = _data(stage, study, folder)
+        for whole in _wholes(stage, trials, built, data):
+            about = {"stage": stage.name, "optimizer": whole.optimizer, "way": whole.way, "fault": whole.fault}
+            rows += [about | row for row in whole.rows]
+            for record in data.dataset.records:
+                role = "check" if record.name in stage.check else "fitted"
+                simulated = None if whole.fault else _simulated(whole, record)
+                rows += [about | row for row in _errors(record, simulated)]
+                if simulated is not None and whole.way == STAGED and role == "check":
+                    parts.append(_response(stage.name, whole.optimizer, record, role, simulated))
+            if closed_loop and whole.optimizer in stage.control and whole.way == STAGED and not whole.fault:
+                rows += [about | row for row in _tracked(stage, study, whole, data, closed_loop)]
+    return pd.DataFrame(rows, columns=list(COLUMNS)), pd.concat(parts) if parts else pd.DataFrame()
+
+
+def _data(stage: StageSpec, study: Study, folder: Path) -> Built:
+    """The records of the stage, and the whole model on those that it fits."""
+    after = next(spec for spec in study.problem if spec.name == stage.after)
+    changed: dict[str, Any] = {"name": stage.name, "model": stage.model, "settings": stage.settings}
+    changed |= {"effects": [], "fixed": {}, "bounds": {}, "scaling": None, "profile": [], "box": "model"}
+    return build_problem(
+        after.model_copy(update=changed | {"fitted": stage.fitted, "held_out": stage.check}), study.seed, folder
+    )
+
+
+def _wholes(stage: StageSpec, trials: pd.DataFrame, built: Mapping[str, Built], data: Built) -> Iterator[Whole]:
+    for label, found in _best(trials, stage.after, built, stage.optimizers):
+        yield _staged(stage, label, found, built[stage.after].problem.system, data)
+    if stage.beside is None:
+        return
+    of = built[stage.beside].problem
+    for label, found in _best(trials, stage.beside, built, stage.optimizers):
+        values = np.array([found[name] for name in of.space.names])
+        told = [(HELD, name, value) for name, value in of.system.fixed.items()]
+        told += [(FITTED, name, value) for name, value in found.items()]
+        units = _units(data)
+        rows = tuple(_row(quantity, name, value, units.get(name, "1")) for quantity, name, value in told)
+        yield Whole(label, stage.beside, of.system, values, rows)
+
+
+def _best(
+    trials: pd.DataFrame, problem: str, built: Mapping[str, Built], labels: list[str]
+) -> Iterator[tuple[str, dict[str, float]]]:
+    """(label, parameters) of the best trial of each of the optimizers, then of all."""
+    finished = trials[(trials["problem"] == problem) & trials["status"].isin(FINISHED)]
+    names = built[problem].problem.space.names
+    for label in [*labels, BEST]:
+        rows = finished if label == BEST else finished[finished["optimizer"] == label]
+        if not rows.empty:
+            best = rows.loc[rows["fitness"].idxmin()]
+            told = f"{BEST} ({best['optimizer']})" if label == BEST else label
+            yield told, {name: float(best[f"parameter.{name}"]) for name in names}
+
+
+def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: System, data: Built) -> Whole:
+    """Hold what the static trial found, fit the linear section behind it."""
+    every = {**static.fixed, **found}
+    held = {name: every[name] for name in data.problem.space.names if name not in stage.fit}
+    system = build_system(stage.model, stage.settings, fixed=held)
+    column = np.array(list(found.values()))[:, None]
+    inputs = [static.simulate(record.signal, column)[:, 0] for record in data.dataset.fitted]
+    section = fitted(replace(data.problem, system=system, space=Space(system.parameters)), inputs)
+    units = _units(data)
+    rows = [_row(HELD, name, value, units[name]) for name, value in held.items()]
+    for name, value, error in zip(stage.fit, section.values, section.standard_errors, strict=True):
+        rows.append(_row(FITTED, name, value, units[name], error))
+    return Whole(label, STAGED, system, section.values, tuple(rows), section.fault)
+
+
+def _tracked(
+    stage: StageSpec, study: Study, whole: Whole, data: Built, closed_loop: ClosedLoop
+) -> Iterator[dict[str, Any]]:
+    """Every controller along every reference, on the rig; a row with the fault where the model allows none."""
+    after = next(spec for spec in study.problem if spec.name == stage.after)
+    assert after.rig is not None
+    found = {row["name"]: row for row in whole.rows}
+    estimates = {name: Estimate(row["value"], row["standard_error"], row["unit"]) for name, row in found.items()}
+    error = {"fitted": accuracy(whole.system, data.dataset.fitted, whole.values).as_dict()}
+    fitted_model = FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
+    rig = registry.build("rigs", after.rig, after.rig_settings)
+    try:
+        scores = closed_loop(fitted_model, rig, after.rig, study.seed)
+    except ValueError as fault:
+        yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
+        return
+    for score in scores.to_dict("records"):
+        for key, quantity in TRACKING.items():
+            yield _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
+
+
+def _simulated(whole: Whole, record: Record) -> Array:
+    """(scored samples,)"""
+    return whole.system.respond(record, whole.values[:, None])[record.scored, 0]
+
+
+def _errors(record: Record, simulated: Array | None) -> list[dict[str, Any]]:
+    unit = record.units.get("output", "1")
+    if simulated is None:
+        return [_row(quantity, record.name, None, unit) for quantity in (LARGEST, RMSE)]
+    error = simulated - record.measured
+    return [
+        _row(LARGEST, record.name, float(np.max(np.abs(error))), unit),  # PEA paper (12)
+        _row(RMSE, record.name, float(np.sqrt(np.mean(error**2))), unit),  # PEA paper (13)
+    ]
+
+
+def _row(quantity: str, name: str, value: float | None, unit: str, error: float = np.inf) -> dict[str, Any]:
+    told = {"value": value, "standard_error": error}
+    absent = {key: None if number is None or not np.isfinite(number) else float(number) for key, number in told.items()}
+    return {"quantity": quantity, "name": name, **absent, "unit": unit}
+
+
+def _units(data: Built) -> dict[str, str]:
+    return {parameter.name: parameter.unit_in(data.dataset.units) for parameter in data.problem.space.parameters}
+
+
+def _response(stage: str, optimizer: str, record: Record, role: str, simulated: Array) -> pd.DataFrame:
+    columns: dict[str, Any] = {
+        "problem": stage,
+        "optimizer": optimizer,
+        "record": record.name,
+        "role": role,
+        "time": record.time[record.scored],
+        "input": record.input[record.scored],
+        "output": record.measured,
+        "simulated": simulated,
+    }
+    return pd.DataFrame(columns)

@@ -1,0 +1,110 @@
+"""The end of a study: one diagnosis in a worker process, kept as files; what was done already is not done again."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.report.diagnosis.figures import fewer
+from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
+from hysteresis_bench.signals import Dataset
+from hysteresis_bench.study.closing_files import CLOSING, DONE, RESPONSES, TOLD, read_closing
+from hysteresis_bench.study.pool import run_tickets
+from hysteresis_bench.study.problems import closing_dataset
+from hysteresis_bench.study.study_file import Study
+
+LIMIT = 1800.0
+"""Seconds after which a diagnosis is stopped."""
+
+NO_EFFECTS = ("noise", "parameters")
+"""What a rig tells of itself under `hidden` beside its effects."""
+
+
+@dataclass(frozen=True)
+class ClosingTicket:
+    """Which diagnosis to run, and the folder that it writes. The study travels as text."""
+
+    study: str
+    data: str
+    out: str
+
+
+@dataclass(frozen=True)
+class Ended:
+    """What the worker says of itself; what it found is in the files."""
+
+    status: str
+    reason: str = ""
+
+
+def close_the_loop(study: Study, data: Path, results: Path) -> None:
+    """Diagnose what the study's [closing] asks for, into the sub-folder closing/ of its results.
+
+    data : the folder where relative data files are looked for. A diagnosis that failed is tried again by the next
+    run, one that is there is kept as long as the same is asked. A failure ends no study: closing.json tells it.
+    """
+    asked = asked_for(study)
+    before = read_closing(results)
+    if before and before.finished and before.told["asked"] == asked:
+        return
+    out = results / f"{CLOSING}.part"
+    shutil.rmtree(out, ignore_errors=True)
+    out.mkdir()
+    begun = time.monotonic()
+    ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
+    ((_, _, status, reason),) = run_tickets([ticket], run_closing, 1, LIMIT)
+    told = {
+        "asked": asked,
+        "hidden": hidden_names(closing_dataset(study, data)),
+        "status": status,
+        "reason": reason,
+        "seconds": round(time.monotonic() - begun, 1),
+    }
+    (out / TOLD).write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    shutil.rmtree(results / CLOSING, ignore_errors=True)
+    out.rename(results / CLOSING)  # a killed run leaves no half a diagnosis
+
+
+def asked_for(study: Study) -> dict[str, Any]:
+    """All that the numbers of the diagnosis depend on, words left out; with the same, it is the same diagnosis."""
+    assert study.closing is not None
+    after = next(spec for spec in study.problem if spec.name == (study.closing.after or study.problem[0].name))
+    source = {"rig", "rig_settings", "data", "skip", "settle"}
+    asked = study.closing.model_dump(mode="json", exclude={"says", "after"})
+    return {**asked, **after.model_dump(mode="json", include=source), "seed": study.seed}
+
+
+def hidden_names(dataset: Dataset) -> list[str]:
+    """What a rig is built with, as it names it, with its own words where it has some; nothing of measurements."""
+    hidden: Mapping[str, Any] = dataset.hidden
+    effects = {name.replace("_", "-"): value for name, value in hidden.items() if value and name not in NO_EFFECTS}
+    return [f"{name} ({value})" if isinstance(value, str) else name for name, value in effects.items()]
+
+
+def run_closing(ticket: ClosingTicket) -> Ended:
+    """Diagnose and write diagnosis.json, model.json, responses.csv and the page of the diagnosis."""
+    study = Study.model_validate_json(ticket.study)
+    assert study.closing is not None
+    spec, out = study.closing, Path(ticket.out)
+    seen = closing_dataset(study, Path(ticket.data))
+    blind = Dataset(seen.records, seen.held_out_names)
+    try:
+        found = diagnose(blind, spec.model, settings=spec.settings, effects=spec.effects, seed=study.seed, jobs=1)
+    except UserError as error:
+        return Ended("raised", " ".join(error.faults))
+    write_diagnosis(out, found)
+    held_out = found.responses[found.responses["role"] == "held-out"]
+    parts = [fewer(rows) for _, rows in held_out.groupby("record", sort=False)]
+    pd.concat(parts).to_csv(out / RESPONSES, index=False, float_format="%.7g")
+    write_diagnosis_page(out, found)
+    return Ended(DONE)

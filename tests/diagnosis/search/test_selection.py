@@ -1,0 +1,115 @@
+"""Which system is taken: hand-made trials on a bench that looks fits up instead of running them."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.diagnosis.search.cross_validation import Blocks
+from hysteresis_bench.diagnosis.search.hypotheses import Trial
+from hysteresis_bench.diagnosis.search.nested_test import NestedTest
+from hysteresis_bench.diagnosis.search.selection import Selection
+
+FLOOR = 0.1
+WAVE = np.sqrt(2.0) * np.sin(2 * np.pi * np.arange(480) / 10)
+ASIDE = np.sqrt(2.0) * np.cos(2 * np.pi * np.arange(480) / 10)
+BLOCKS = Blocks(np.arange(480) // 10, np.arange(480) // 10 % 4)
+
+
+def fit(names, rmse, wave=WAVE):
+    """Residuals of one shape, of which every block gains alike: any difference is significant."""
+    values = dict.fromkeys(names, 1.0)
+    return Trial(frozenset(names), values, rmse * wave, rmse * wave, ())
+
+
+def selection_of(*fits, floor=FLOOR, candidates="abcd"):
+    """Every question is answered by the fit of the system that it asks for; the crew keeps what it was asked."""
+    book, asked = {trial.names: trial for trial in fits}, []
+
+    def answers(questions):
+        asked.extend(questions)
+        changed = {
+            "extended": lambda t, name, *_: t.names | {name},
+            "reduced": lambda t, name: t.names - {name},
+            "refitted": lambda t: t.names,
+        }
+        return [book[frozenset(changed[method](*rest))] for method, *rest in questions]
+
+    bench = SimpleNamespace(
+        blocks=BLOCKS,
+        stack=SimpleNamespace(model=SimpleNamespace(offers={})),
+        test=lambda smaller, larger: NestedTest(1e3, 1e-12, 1),
+        refitted=lambda trial: trial,
+    )
+    return Selection(bench, SimpleNamespace(map=answers, asked=asked), floor, tuple(candidates))
+
+
+def leaving(excess, floor=FLOOR):
+    """The RMSE with this mean square over the noise."""
+    return float(np.sqrt(floor**2 + excess))
+
+
+@pytest.mark.parametrize(("share", "tied"), [(0.04, True), (0.09, True), (0.11, False), (0.3, False)])
+def test_two_wrong_systems_differ_by_their_share_of_the_excess(share, tied):
+    one, other = fit("a", leaving(1.0)), fit("b", leaving(1.0 - share))
+    assert selection_of().tied(one, other) is tied
+    assert selection_of().tied(other, one) is tied
+
+
+def test_near_the_noise_a_small_share_tells_them_apart():
+    """Every block says so, and nothing else is missing that could be the reason."""
+    one, other = fit("a", leaving(0.21, floor=1.0)), fit("b", leaving(0.21 * 0.95, floor=1.0))
+    assert not selection_of(floor=1.0).tied(one, other)
+    assert selection_of(floor=0.5).tied(one, other)
+
+
+def test_two_wrong_systems_that_err_differently_are_no_tie():
+    one = fit("a", leaving(1.0))
+    other = fit("b", leaving(0.96), wave=ASIDE)
+    assert not selection_of().tied(one, other)
+
+
+@pytest.mark.parametrize(("share", "named"), [(0.3, ""), (0.45, ""), (0.55, "a"), (0.9, "a")])
+def test_an_effect_is_named_that_explains_more_than_it_leaves(share, named):
+    """All of them join, because they pass every test; in the end the smaller ones are dropped."""
+    base, larger = fit("", leaving(1.0)), fit("a", leaving(1.0 - share))
+    selection = selection_of(base, larger, candidates="a")
+    found = selection.run(base)
+    assert selection.rounds[0].chosen == "a"
+    assert found.names == set(named)
+
+
+def test_what_stays_is_weighed_again_without_what_was_dropped():
+    """b explains most, c little of what b leaves; next to c alone, b stays."""
+    both, b, c = fit("bc", 1.0), fit("b", 1.2), fit("c", 3.0)
+    selection = selection_of(fit("", 3.2), both, b, c, candidates="bc")
+    assert selection._named(both) is b
+
+
+def test_a_better_fit_found_later_replaces_the_known_one():
+    bad, good = fit("a", 2.0), fit("a", 1.0)
+    current, worse, better = fit("ab", 0.8), fit("ac", 1.9), fit("ad", 0.5)
+    unrelated = fit("cd", 1.9)
+    selection = selection_of(good)
+    selection.known = {trial.names: trial for trial in (bad, current, worse, better, unrelated)}
+    assert selection.without(current, "b") is good
+    kept = {trial.names: trial for trial in (good, current, better, unrelated)}
+    assert selection.known == kept  # {a, c} was built on the worse {a}
+
+
+def test_a_worse_fit_found_later_is_forgotten():
+    known, larger = fit("a", 1.0), fit("ac", 1.05)
+    selection = selection_of(fit("a", 1.2))
+    selection.known = {trial.names: trial for trial in (known, larger)}
+    assert selection.without(fit("ab", 0.8), "b") is known
+    assert selection.known == {known.names: known, larger.names: larger}
+
+
+def test_the_same_question_is_asked_once():
+    current = fit("ab", 0.8)
+    selection = selection_of(fit("a", 1.0), fit("b", 1.1))
+    assert selection._reduced(current, "ab") == selection._reduced(current, "ab")
+    assert [question[2] for question in selection.crew.asked] == ["a", "b"]
+    del selection.known[frozenset("a")]
+    assert selection.without(current, "b").names == {"a"}
+    assert len(selection.crew.asked) == 3

@@ -1,0 +1,149 @@
+"""The page of a diagnosis: everything that was found is on it, and nothing that was not."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from hysteresis_bench.diagnosis.evidence.memory import Memory
+from hysteresis_bench.diagnosis.evidence.noise import Noise
+from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
+from hysteresis_bench.diagnosis.findings.advice import Advice
+from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
+from hysteresis_bench.diagnosis.findings.ties import tie
+from hysteresis_bench.fit.accuracy import Accuracy
+from hysteresis_bench.fit.model_file import Estimate, FittedModel
+from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
+
+UNITS = {"time": "s", "input": "V", "output": "um"}
+
+
+def _stage(names: tuple[str, ...], rmse: float, p: float) -> Stage:
+    tests = tuple(
+        ResidualTest(record, "rate", 3.0, p, p, 0.4, f"the residual depends on the input's rate, p = {p:.2g}")
+        for record in ("all", "slow", "fast")
+    )
+    return Stage(names, None, np.zeros(0), Accuracy(rmse, rmse / 10, 0.3), Accuracy(2 * rmse, rmse / 5, 0.4), tests)  # type: ignore[arg-type]
+
+
+@pytest.fixture
+def diagnosis() -> Diagnosis:
+    time = np.linspace(0.0, 1.0, 400)
+    parts = []
+    for record, role in (("slow", "fitted"), ("fast", "fitted"), ("other", "held-out")):
+        u = np.sin(6.0 * time)
+        part = {"time": time, "input": u, "output": u, "before": 0.8 * u, "after": 0.99 * u}
+        parts.append(pd.DataFrame({"record": record, "role": role, **part}))
+    parameters = {"d": Estimate(1.0, 0.1, "um/V"), "input-lag.time_constant": Estimate(0.0123, 0.0004, "s")}
+    one = tie("input-lag", "transport-delay", 0.001)
+    return Diagnosis(
+        model_name="bouc-wen",
+        verdict="effect-found",
+        headline="The model lacks input-lag: the RMSE falls from 0.6 to 0.04 um; the noise is 0.02.",
+        effects=("input-lag",),
+        offset="",
+        before=_stage((), 0.3, 1e-9),
+        after=_stage(("input-lag",), 0.02, 0.5),
+        noise=Noise(0.02, 0.001, 0.0, 0.0, None, (0.02,), 0.0, 800),
+        floor=0.02,
+        candidates=(
+            Candidate("input-lag", True, "", True, 0.02, 0.021, 1e-12, 9.0, {"time_constant": 0.0123}, (), ("a",)),
+            Candidate("transport-delay", True, "", False, 0.02, 0.021, 0.4, 0.1, {"delay": 0.01}, (), ("input-lag",)),
+            Candidate("drift", True, "", False, 0.02, 0.02, 0.7, 0.0, {"rate": 0.0}, ("drift.rate",)),
+            Candidate("temperature-sensitivity", False, "no column temperature <here>"),
+        ),
+        steps=(),
+        waterfall=(("bouc-wen alone", 0.3), ("input-lag", 0.02), ("noise", 0.02)),
+        ties=(one,),
+        advice=Advice("a sine of 5 Hz", 0.2, 0.02, "Measure a sine of 5 Hz: that settles it."),
+        memory=Memory(True, 1e-5, 1.0, 1.0, 0.1, 0.2, "curve", (0.0,), False, "hysteresis is needed"),
+        equation=None,
+        model=FittedModel("bouc-wen", {}, ("input-lag",), {}, UNITS, parameters, created_by={"hysteresis-bench": "1"}),
+        responses=pd.concat(parts, ignore_index=True),
+        split={"fitted": ["slow", "fast"], "held_out": ["other"], "how": "held out as asked"},
+        warnings=("One thing to know.", f"input-lag and transport-delay cannot be told apart: {one.reason}."),
+        units=UNITS,
+    )
+
+
+def _written(folder: Path, diagnosis: Diagnosis) -> str:
+    return write_diagnosis_page(folder, diagnosis).read_text(encoding="utf-8")
+
+
+def _plain(page: str) -> str:
+    return re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", page[page.index("<main>") :]))
+
+
+def test_the_page_says_what_was_found(tmp_path, diagnosis):
+    text = _plain(_written(tmp_path, diagnosis))
+    assert text.index(diagnosis.headline) < text.index("before and after")
+    for words in (
+        "bouc-wen lacks input-lag",
+        "input-lag or, as well, transport-delay",
+        diagnosis.advice.words,
+        "input-lag.time_constant 0.0123",
+        "a delay both only shift the loop",
+        "held out as asked",
+        "rate 0 (at its bound)",
+    ):
+        assert words in text, words
+    assert "d 1 0.1" not in text  # the model's own parameters are not the diagnosis
+    assert text.count("cannot be told apart") == 0  # the ties are told once, in their own list
+
+
+def test_the_page_stands_alone_and_escapes(tmp_path, diagnosis):
+    page = _written(tmp_path, diagnosis)
+    assert "no column temperature &lt;here&gt;" in page
+    assert not re.search(r'(src|href)="https?:', page)
+    assert "prefers-color-scheme: dark" in page
+    assert {path.name for path in (tmp_path / "figures").iterdir()} >= {"waterfall.svg", "loop-1-other.svg"}
+    identifiers = re.findall(r'\bid="([^"]+)"', page)
+    assert len(identifiers) == len(set(identifiers))
+
+
+def test_nothing_missing_is_told_without_advice_or_added_parameters(tmp_path, diagnosis):
+    nothing = replace(
+        diagnosis,
+        verdict="no-effect-needed",
+        headline="No effect that is known here is missing.",
+        effects=(),
+        after=diagnosis.before,
+        ties=(),
+        advice=None,
+        candidates=diagnosis.candidates[2:],
+        waterfall=(("bouc-wen alone", 0.3), ("noise", 0.02)),
+        warnings=(),
+    )
+    text = _plain(_written(tmp_path, nothing))
+    assert "bouc-wen lacks nothing known here" in text
+    for heading in ("What to measure next", "Parameters that came with", "cannot tell apart", "Before you believe it"):
+        assert heading not in text, heading
+
+
+def test_what_is_left_is_in_the_title(tmp_path, diagnosis):
+    left = replace(diagnosis, verdict="unexplained-residual")
+    assert "input-lag or its like, and something without a name" in _plain(_written(tmp_path, left))
+    unnamed = replace(left, effects=(), ties=())
+    assert "leaves something that no effect explains" in _plain(_written(tmp_path, unnamed))
+
+
+def test_without_held_out_records_or_noise(tmp_path, diagnosis):
+    before, after = (replace(stage, held_out=None) for stage in (diagnosis.before, diagnosis.after))
+    steps = (("bouc-wen alone", 0.3), ("input-lag", 0.0), ("noise", 0.0))
+    after = replace(after, fitted=Accuracy(0.0, 0.0, 0.0))
+    text = _plain(_written(tmp_path, replace(diagnosis, before=before, after=after, floor=0.0, waterfall=steps)))
+    assert "held out, before" not in text
+
+
+def test_many_records_are_told_and_some_drawn(tmp_path, diagnosis):
+    one = diagnosis.responses[diagnosis.responses["record"] == "slow"]
+    many = pd.concat([one.assign(record=f"r{number}") for number in range(9)] + [diagnosis.responses])
+    page = _written(tmp_path, replace(diagnosis, responses=many))
+    assert f"{12 - MOST} more records are not drawn" in page
+    assert "other (held-out)" in page
+    assert len(list((tmp_path / "figures").glob("loop-*.svg"))) == MOST
