@@ -9,7 +9,8 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.eddy_current import acting
-from hysteresis_bench.kernels.free_energy import LANES, error_function, moving, played, radii
+from hysteresis_bench.kernels.free_energy import LANES, error_function, moving, radii
+from hysteresis_bench.kernels.play import played
 
 # Rows of the nodes' work array: the plays' P and their share of the magnetization, each with what the last trial found.
 RADIUS, WEIGHT, STATE, TERM, NEXT_STATE, NEXT_TERM = range(6)

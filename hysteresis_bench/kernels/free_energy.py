@@ -18,6 +18,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.play import played
 
 Rule = Literal["trapezoid", "gauss-legendre", "gauss-hermite"]
 
@@ -85,15 +86,6 @@ def moving(h, state, radius):  # type: ignore[no-untyped-def]
     return moved
 
 
-@njit(inline="always", error_model="numpy")
-def played(h, radius, p):  # type: ignore[no-untyped-def]
-    """(3): where the field h takes a play that is at p."""
-    high = h + radius
-    low = h - radius
-    p = high if high < p else p
-    return low if low > p else p
-
-
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
 def magnetization(
     field: Array,
@@ -139,7 +131,7 @@ def magnetization(
             moved = moving(h, state, radius)
             if moved > 0:
                 for j in range(moved):
-                    p = played(h, radius[j], state[j])
+                    p = played(h, radius[j], state[j])  # (3)
                     state[j] = p
                     term[j] = weight[j] * error_function(p)
                 switched = 0.0

@@ -8,12 +8,21 @@ from numba import njit
 from hysteresis_bench.arrays import Array
 
 
+@njit(inline="always", error_model="numpy")
+def played(u, radius, p):  # type: ignore[no-untyped-def]
+    """Where an input u takes a play that is at p."""
+    high = u + radius
+    low = u - radius
+    p = high if high < p else p
+    return low if low > p else p
+
+
 @njit(cache=True, error_model="numpy")
 def play(u: Array, radius: Array) -> Array:
     """Play (backlash) operator: the output follows the input with a dead band.
 
     Rate-independent: the order of samples matters, their times do not. Exact for an input that is monotone
-    between its samples.
+    between its samples. A bank of plays on one input is a swarm of radii.
 
     u : float64[samples, 1] or float64[samples, swarm]    input, any unit
     radius : float64[swarm]                               half-width of the dead band, unit of u, >= 0;
@@ -32,5 +41,5 @@ def play(u: Array, radius: Array) -> Array:
     for i in range(1, samples):
         for j in range(swarm):
             now = u[i, j] if columns > 1 else u[i, 0]
-            p[i, j] = max(now - radius[j], min(now + radius[j], p[i - 1, j]))
+            p[i, j] = played(now, radius[j], p[i - 1, j])
     return p
