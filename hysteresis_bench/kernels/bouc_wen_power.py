@@ -3,7 +3,7 @@
 That step chooses its length for itself, which keeps a loop over a swarm from being vectorised. Here all particles make
 one Taylor step of fifth order an increment of the input, side by side, or several of equal length where the increments
 are coarse; the last term is the estimate of the error. The step of `bouc_wen_step` is made only for the particles
-whose h crosses 0 and for those few whose error is too large: 30 to 150 times as fast for finely sampled data.
+whose h crosses 0 and for those few whose error is too large: 12 to 110 times as fast for finely sampled data.
 
 With a = |g| and the derivatives in g of f = A - rate |g|^(n-1) g written D, E, F, G,
 
