@@ -6,6 +6,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.without_hysteresis import without_hysteresis
 from hysteresis_bench.signals import Dataset, Record
 
@@ -47,7 +48,7 @@ def test_a_model_that_cannot_do_without():
 
 
 def test_a_linear_device_with_a_delay():
-    found = diagnose(late_lines(), "bouc-wen", jobs=1)
+    found = diagnose(late_lines(), Question("bouc-wen"), jobs=1)
     assert not found.memory.needed
     assert found.verdict == "effect-found"
     names = {*found.effects, *(one.rival for one in found.ties)}
