@@ -12,7 +12,7 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Literal, Protocol, TypeAlias
 
 import numpy as np
 from numpy.random import Generator
@@ -24,6 +24,21 @@ from hysteresis_bench.signals import Dataset, Record, Signal
 Start = Callable[[int], Array]
 """start(particles) -> (dimension, particles): the first points, shared by all optimizers of a trial.
 The first k columns do not depend on how many are asked for."""
+
+Acts: TypeAlias = Literal["law", "input", "output", "added"]
+"""Where an effect acts, in the order of the chain: inside or beside the law, on the input that it sees, on its output,
+or merely added to that."""
+
+Family: TypeAlias = Literal[
+    "law",
+    "curve of the input",
+    "linear dynamics before the law",
+    "curve of the output",
+    "added disturbance",
+    "change with time, path or temperature",
+    "linear dynamics after the law",
+]
+"""Effects of one family do alike. Of those that act in one place, the earlier family stands further inside."""
 
 
 class Model(ABC):
@@ -56,6 +71,13 @@ class Effect(ABC):
     """A physical effect around a model. At its null value it changes nothing, to the last bit."""
 
     parameters: ClassVar[tuple[Parameter, ...]]
+    acts: ClassVar[Acts]
+    family: ClassVar[Family]
+    nuisance: ClassVar[bool] = False
+    """True: it is estimated and never claimed. It stands outside all others that act where it does."""
+    mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Other effects by name, and why data may not tell them from this one: the end of a sentence that a report prints.
+    It is enough for one of the two to say so."""
 
     @abstractmethod
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

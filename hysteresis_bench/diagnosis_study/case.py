@@ -16,9 +16,6 @@ from hysteresis_bench.fit.search import generator
 from hysteresis_bench.signals import Dataset, joined
 from hysteresis_bench.study.study_file import duration
 
-NUISANCE = "record-offset"
-"""What differs from record to record in real life; no claim."""
-
 
 class _Strict(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -126,7 +123,8 @@ def run_case(ticket: CaseTicket) -> Case:
         | {t.effect for t in found.ties if t.rival == name}
         for name in found.effects
     }
-    named, tied, missed, extra = compared(truth, [name for name in found.effects if name != NUISANCE], rivals)
+    claimed = [name for name in found.effects if name != registry.RECORD_OFFSET]
+    named, tied, missed, extra = compared(truth, claimed, rivals)
     noise = _noise(seen, found.floor)
     before, after = (stage.held_out or stage.fitted for stage in (found.before, found.after))
     fresh = None
@@ -141,7 +139,7 @@ def run_case(ticket: CaseTicket) -> Case:
         ticket.number,
         "done",
         hidden=" ".join(truth),
-        claimed=" ".join(name for name in found.effects if name != NUISANCE),
+        claimed=" ".join(claimed),
         named=" ".join(named),
         tied=" ".join(tied),
         missed=" ".join(missed),

@@ -26,9 +26,6 @@ from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, g
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, Record
 
-DEFAULT_OPTIMIZER = "pso-constriction"
-"""What `studies/sma.toml` shows for a log-scaled box: successful in 30 of 30 trials, as the best ones are, and of
-these the cheapest by far (0.1 s a trial); the polish does the rest."""
 DEFAULT_BUDGET = 15050
 AGREE = 0.01
 """Two searches agree when neither's RMSE is more than 1 % above the other's, and their simulated outputs
@@ -67,7 +64,7 @@ def fit_records(
     effects: Sequence[str] = (),
     *,
     settings: Mapping[str, Any] | None = None,
-    optimizer: str = DEFAULT_OPTIMIZER,
+    optimizer: str = registry.SEARCH,
     optimizer_settings: Mapping[str, Any] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     fixed: Mapping[str, float] | None = None,

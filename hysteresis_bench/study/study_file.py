@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PositiveInt, ValidationError, model_validator
 
+from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.parameters import Scaling
 from hysteresis_bench.study.study_faults import content_faults
@@ -130,7 +131,7 @@ class Study(_Strict):
     trials: PositiveInt = 3
     budget: PositiveInt = 15050
     timeout: Annotated[float, BeforeValidator(duration)] = 600.0
-    reference: str = "pso"
+    reference: str = registry.REFERENCE
     published: str | None = None
     notes: list[str] = []
     problem: list[ProblemSpec] = Field(min_length=1)

@@ -21,7 +21,8 @@ class Blocks:
     @property
     def training(self) -> Array:
         """(samples, folds), 1 where a sample counts for a fold's fit."""
-        return (self.fold[:, None] != np.arange(self.folds)).astype(float)
+        counts: Array = (self.fold[:, None] != np.arange(self.folds)).astype(float)
+        return counts
 
 
 def blocked(sizes: Sequence[int], counts: Sequence[int], folds: int, *, turn: int = 0, shift: int = 2) -> Blocks:

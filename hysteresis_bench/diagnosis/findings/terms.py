@@ -79,7 +79,7 @@ class Term:
         if self.kind == "lag":
             return covariates.low_pass(time, x, self.value) - x
         if self.kind in ("time", "log time"):
-            elapsed = time - time[0]
+            elapsed: Array = time - time[0]
             return elapsed if self.kind == "time" else np.log1p(elapsed / self.value)
         turns = covariates.turning_points(u, self.resolution)
         if self.kind in ("branch", "branch u"):

@@ -12,7 +12,8 @@ from numpy.random import default_rng
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.search.cross_validation import Blocks, cut, left_out_errors
+from hysteresis_bench.diagnosis.evidence.blocks import Blocks
+from hysteresis_bench.diagnosis.search.cross_validation import cut, left_out_errors
 from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.nested_test import SEARCHED, NestedTest, nested_test
 from hysteresis_bench.diagnosis.search.starts import grid
@@ -78,7 +79,7 @@ class Fitter:
             points = points[:, self._promising(hypothesis, problem, points, hypothesis.values)]
         if other is not None:
             exchanged = np.column_stack(
-                [point_of(problem, {**hypothesis.values, **other, **values}) for values in grid]
+                [point_of(problem, {**hypothesis.values, **other, **values}) for values in spread]
             )
             best = np.argsort(problem.squares(exchanged), kind="stable")[:CHAINS]
             points = np.column_stack([points, exchanged[:, best]])

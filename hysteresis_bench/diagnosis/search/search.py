@@ -85,9 +85,20 @@ def search(prepared: Prepared, evidence: Evidence, question: Question, jobs: int
             follows=answers,
             rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
             without={name: selection.without(best, name) for name in selection.adopted(best)},
-            order=tuple(selection.in_order(base, best)),
+            order=_in_order(selection, base, best),
             impossible=impossible,
         )
+
+
+def _in_order(selection: Selection, base: Hypothesis, best: Hypothesis) -> tuple[tuple[str, Hypothesis], ...]:
+    """The adopted effects, the one that helps most first, each with the system that it completes."""
+    current, steps = base, []
+    while left := best.names - current.names:
+        names = sorted(left)
+        ranked = zip(selection.with_each(current, names), names, strict=True)
+        current, most = min(ranked, key=lambda pair: pair[0].rmse)
+        steps.append((most, current))
+    return tuple(steps)
 
 
 def _switched_off(model: Model, evidence: Evidence) -> dict[str, float]:

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
@@ -111,16 +112,6 @@ class Selection:
         others = self.alternatives(current, name)
         return {rival: other for rival, other in others.items() if self.tied(current, other)}
 
-    def in_order(self, base: Hypothesis, found: Hypothesis) -> list[tuple[str, Hypothesis]]:
-        """The adopted effects, the one that helps most first, each with the system that it completes."""
-        current, steps = base, []
-        while left := found.names - current.names:
-            names = sorted(left)
-            ranked = zip(self.with_each(current, names), names, strict=True)
-            current, best = min(ranked, key=lambda pair: pair[0].rmse)
-            steps.append((best, current))
-        return steps
-
     def without(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
         return self._reduced(hypothesis, [name])[0]
 
@@ -174,7 +165,7 @@ class Selection:
             hypotheses = [hypothesis for hypothesis in alike if key(hypothesis) == least]
         return hypotheses[0]
 
-    def _plainness(self, hypothesis: Hypothesis) -> list:
+    def _plainness(self, hypothesis: Hypothesis) -> list[int]:
         return [
             len(hypothesis.at_bound) > 0,
             len(hypothesis.values),
@@ -297,7 +288,7 @@ class Selection:
             if self.known[names].rmse * BETTER > hypothesis.rmse:
                 del self.known[names]
 
-    def _ask(self, questions: Sequence[tuple], names: Sequence[frozenset[str]]) -> list[Hypothesis]:
+    def _ask(self, questions: Sequence[tuple[Any, ...]], names: Sequence[frozenset[str]]) -> list[Hypothesis]:
         """Only what is not known yet."""
         new = [place for place, key in enumerate(names) if key not in self.known]
         for place, hypothesis in zip(new, self.workers.map([questions[place] for place in new]), strict=True):

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -28,6 +28,13 @@ class Asymmetry(Effect):
     [1] F. Giri, E.-W. Bai (eds.), Block-oriented Nonlinear System Identification, Springer (2010).
     """
 
+    acts = "input"
+    family = "curve of the input"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "saturation": (
+            "off the middle of the loop, a bend of the input and a bend of the output are the same to first order"
+        ),
+    }
     parameters = (Parameter("curvature", -0.45, 0.45, "1/{input}", null=0.0, meaning="of the input's action"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

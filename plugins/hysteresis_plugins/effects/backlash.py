@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -25,6 +25,12 @@ class Backlash(Effect):
     [1] M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer (1996), chapter 2.
     """
 
+    acts = "input"
+    family = "law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "rayleigh-hysteresis": "both make the loop wider with the amplitude",
+        "input-lag": "at one amplitude and frequency both shift the loop after a reversal",
+    }
     parameters = (Parameter("half_width", 0.0, 1.0, "{input}", null=0.0, meaning="of the dead band"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

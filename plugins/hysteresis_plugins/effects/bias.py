@@ -18,6 +18,9 @@ from hysteresis_bench.signals import Record, Signal
 class Bias(Effect):
     """One constant on the output of all records: y + offset."""
 
+    acts = "added"
+    family = "curve of the output"
+    nuisance = True
     parameters = (Parameter("offset", -1.0, 1.0, unit="{output}", null=0.0, meaning="added to the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

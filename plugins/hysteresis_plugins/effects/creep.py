@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -33,6 +33,14 @@ class Creep(Effect):
     Instruments 71 (2000) 1896-1900.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "drift": "creep that is slow against the record is a straight line in time",
+        "input-lag": "both let a part of the response arrive late",
+        "resonance": "both let a part of the response arrive late",
+        "transport-delay": "both let the response arrive late; they differ in how it depends on speed",
+    }
     parameters = (
         Parameter("share", 0.0, 0.9, null=0.0, meaning="of the relaxed response that arrives late"),
         Parameter("time_constant", 1e-3, 1e2, "{time}", "log", meaning="geometric mean of the relaxations'"),

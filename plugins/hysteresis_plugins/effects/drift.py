@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
@@ -22,6 +22,11 @@ class Drift(Effect):
     [1] JCGM 200:2012, International vocabulary of metrology, 4.21 instrumental drift.
     """
 
+    acts = "added"
+    family = "change with time, path or temperature"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "temperature-sensitivity": "the temperature changed steadily with time, so that either may move the zero",
+    }
     parameters = (Parameter("rate", -1.0, 1.0, "{output}/{time}", null=0.0, meaning="of the output's zero"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -32,6 +32,14 @@ class Fatigue(Effect):
     Mechanics Division 107 (1981) 1069-1087.
     """
 
+    acts = "output"
+    family = "change with time, path or temperature"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "drift": "over one cycle count and amplitude, a loop that shrinks also moves its ends",
+        "temperature-sensitivity": (
+            "the temperature changed along with the path travelled, so that either may scale the response"
+        ),
+    }
     parameters = (Parameter("rate", 0.0, 1.0, "1/{input}", null=0.0, meaning="loss of amplitude a path"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

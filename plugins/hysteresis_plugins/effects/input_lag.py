@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -28,6 +28,19 @@ class InputLag(Effect):
     [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), first-order systems.
     """
 
+    acts = "input"
+    family = "linear dynamics before the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "transport-delay": (
+            "at one frequency, after the transient, a lag before a rate-independent hysteresis and a delay both only "
+            "shift the loop in time; they differ in how the shift depends on the frequency"
+        ),
+        "output-lag": (
+            "a small lag before the hysteresis and one after it differ only at second order in frequency times lag, "
+            "where the loop is not a straight line"
+        ),
+        "resonance": "an overdamped resonance is a lag, here on the other side of the hysteresis",
+    }
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

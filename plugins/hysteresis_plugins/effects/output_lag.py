@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
@@ -26,6 +26,16 @@ class OutputLag(Effect):
     [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), first-order systems.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "creep": "creep with one relaxation and nearly the whole response late is a lag",
+        "resonance": "an overdamped resonance is a lag",
+        "transport-delay": (
+            "a lag that is short against the fastest movement is a delay to first order; it differs in the damping of "
+            "what is fast"
+        ),
+    }
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -47,6 +47,12 @@ class PeriodicDisturbance(Effect):
     [1] B. G. Quinn, E. J. Hannan, The Estimation and Tracking of Frequency, Cambridge University Press (2001).
     """
 
+    acts = "added"
+    family = "added disturbance"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "drift": "less than a period of a slow disturbance is a drift",
+        "input-lag": "with a periodic input, a disturbance of its frequency shifts the loop as a lag does",
+    }
     parameters = (
         Parameter("cosine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude in phase with t = 0"),
         Parameter("sine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude a quarter period later"),

@@ -28,6 +28,8 @@ class RayleighHysteresis(Effect):
     [2] D. Damjanovic, M. Demartin, J. Phys. D 29 (1996) 2057.
     """
 
+    acts = "law"
+    family = "law"
     parameters = (
         Parameter("coefficient", 0.0, 1.0, "{output}/{input}^2", null=0.0, meaning="growth of the slope of loops"),
     )

@@ -24,6 +24,9 @@ class RecordDrift(Effect):
     output is given none, as its drift is not known. What all records share is `drift`.
     """
 
+    acts = "added"
+    family = "change with time, path or temperature"
+    nuisance = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -22,6 +22,9 @@ class RecordOffset(Effect):
     `default` is what a record without an output is given; the median of a fit's records.
     """
 
+    acts = "added"
+    family = "change with time, path or temperature"
+    nuisance = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     default: float = 0.0

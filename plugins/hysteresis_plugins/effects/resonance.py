@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -26,6 +26,11 @@ class Resonance(Effect):
     lag vanishes with it.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "transport-delay": "far below its natural frequency a damped resonance only delays",
+    }
     parameters = (
         Parameter("period", 0.0, 0.1, unit="{time}", null=0.0, meaning="1 / undamped natural frequency"),
         Parameter("damping", 0.02, 2.0, scaling="log", meaning="damping ratio, 1 is critical"),

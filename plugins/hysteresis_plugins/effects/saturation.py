@@ -29,6 +29,8 @@ class Saturation(Effect):
     2nd European Conference on Satellite Communications (1991) 179-184.
     """
 
+    acts = "output"
+    family = "curve of the output"
     parameters = (
         Parameter("inverse_level", 0.0, 1.0, "1/{output}", null=0.0, meaning="1 / the largest |output|"),
         Parameter("sharpness", 1.0, 20.0, scaling="log", meaning="of the bend, n"),

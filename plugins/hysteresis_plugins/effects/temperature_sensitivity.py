@@ -29,6 +29,8 @@ class TemperatureSensitivity(Effect):
     quantities, ambient temperature.
     """
 
+    acts = "output"
+    family = "change with time, path or temperature"
     parameters = (
         Parameter("gain", -0.05, 0.05, "1/K", null=0.0, meaning="relative change of the response"),
         Parameter("expansion", -1.0, 1.0, "{output}/K", null=0.0, meaning="change of the output's zero"),

@@ -30,6 +30,8 @@ class TransportDelay(Effect):
     [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), transport lag.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
     parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

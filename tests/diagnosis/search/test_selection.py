@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.search.selection import Selection
 FLOOR = 0.1
 WAVE = np.sqrt(2.0) * np.sin(2 * np.pi * np.arange(480) / 10)
 ASIDE = np.sqrt(2.0) * np.cos(2 * np.pi * np.arange(480) / 10)
-BLOCKS = Blocks(np.arange(480) // 10, np.arange(480) // 10 % 4)
+BLOCKS = Blocks(np.arange(480) // 10, np.arange(480) // 10 % 4, 4)
 
 
 def fit(names, rmse, wave=WAVE):
