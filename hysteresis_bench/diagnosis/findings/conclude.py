@@ -73,6 +73,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         },
         warnings=(*warnings(outcome), *_open(after, prepared)),
         units=dataset.units,
+        given_up=found.given_up,
     )
 
 

@@ -15,6 +15,7 @@ from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.fit.model_file import FittedModel
 
 Verdict = Literal["effect-found", "no-effect-needed", "unexplained-residual"]
@@ -28,6 +29,7 @@ class Diagnosis:
     effects : adopted, the largest first;  waterfall : label and RMSE on the fitted records, from the bare model
     to the noise;  responses : record, role, time, input, output, before, after over the scored samples
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
+    given_up : effects that had been selected but predicted excitations left out worse than the bare model
     equation : what describes the residual that remains;  model : ready to predict and to be written
     """
 
@@ -52,3 +54,4 @@ class Diagnosis:
     split: Mapping[str, Any]
     warnings: tuple[str, ...]
     units: Mapping[str, str]
+    given_up: Fallback | None

@@ -15,7 +15,7 @@ from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.fitter import Fitter
 from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.search import Found, without_fixed_hysteresis
+from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
@@ -58,12 +58,11 @@ def settle_offset(prepared: Prepared, found: Found, question: Question) -> Stage
     common = registry.COMMON_OFFSET
     adopted = (*(name for name, _ in order), *([common] if offset == common else []))
     nuisance = frozenset(registry.OFFSETS if order else [registry.RECORD_OFFSET]) & final.names
-    whole, thin = (without_fixed_hysteresis(fitter, question) for fitter in (found.full, found.thin))
-    bare = thin.bare(nuisance)
+    bare = found.thin.bare(nuisance)
     if final.names == nuisance and final.rmse < bare.rmse:
         before = after = stage_of(found.full, final, prepared)
     else:
-        before = stage_of(whole, bare, prepared)
+        before = stage_of(found.full, bare, prepared)
         after = before if final.names == nuisance else stage_of(found.full, final, prepared)
     return Stages(before, after, offset, adopted, _waterfall(found, question.model, before, after))
 

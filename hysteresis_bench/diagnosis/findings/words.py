@@ -9,6 +9,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.combinations import listed
 
@@ -81,11 +82,21 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
     return f"{name} (or {', '.join(rivals)}: these records cannot tell)" if rivals else name
 
 
+def _gave_up(fallback: Fallback) -> str:
+    were = "was" if len(fallback.dropped) == 1 else "were"
+    return (
+        f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the RMSE "
+        f"was {fallback.selected:.3g} with it, {fallback.kept:.3g} without, and {fallback.bare:.3g} of the bare model."
+    )
+
+
 def warnings(outcome: Outcome) -> tuple[str, ...]:
     """What a user must know before believing the names."""
     found, final, after, floor = outcome.found, outcome.found.final, outcome.after, outcome.evidence.floor
     records = found.full.stack.records
     said = list(found.full.stack.model.advice(records)) if not final.names & {*registry.OFFSETS} else []
+    if found.given_up:
+        said.insert(0, _gave_up(found.given_up))
     if not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if outcome.doubted and found.follows:

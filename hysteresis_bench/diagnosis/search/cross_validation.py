@@ -35,10 +35,10 @@ def cut(records: Sequence[Record]) -> Blocks:
     return blocked(samples.tolist(), counts.tolist(), FOLDS, turn=1, shift=1)
 
 
-def left_out_errors(problem: Problem, point: Array, blocks: Blocks) -> Array:
+def left_out_errors(problem: Problem, point: Array, blocks: Blocks, iterations: int = ITERATIONS) -> Array:
     """Errors (scored samples,) of every sample by the fit that did not count it; point : (dimension,)."""
     starts = np.repeat(point[:, None], blocks.folds, axis=1)
-    points, _ = descend(problem, starts, blocks.training, ITERATIONS)
+    points, _ = descend(problem, starts, blocks.training, iterations)
     return errors(problem, points)[np.arange(blocks.fold.size), blocks.fold]
 
 

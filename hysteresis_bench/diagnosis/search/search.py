@@ -4,21 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from hysteresis_bench import registry
-from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
+from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back
 from hysteresis_bench.diagnosis.search.fitter import Fitter
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.diagnosis.search.systems import Stack
-from hysteresis_bench.diagnosis.search.without_hysteresis import without_hysteresis
 from hysteresis_bench.diagnosis.search.workers import Workers
 
 QUIETER = 0.9
@@ -34,6 +33,7 @@ class Found:
     base : the bare model with each record's offset;  best : what was selected, with each record's offset
     final : the same with the simplest offset;  follows : does the response to the input explain the output?
     order : the adopted effects, the one that helps most first, each with the system that it completes
+    given_up : what predicted excitations left out worse than the bare model
     rivals : for each adopted effect, what would do as well in its place, and that system
     without : for each adopted effect, the selected system without it
     impossible : effects that cannot be tried, with the reason
@@ -48,6 +48,7 @@ class Found:
     final: Hypothesis
     follows: bool
     order: tuple[tuple[str, Hypothesis], ...]
+    given_up: Fallback | None
     rivals: Mapping[str, Mapping[str, Hypothesis]]
     without: Mapping[str, Hypothesis]
     impossible: Mapping[str, str]
@@ -56,9 +57,8 @@ class Found:
 def search(prepared: Prepared, evidence: Evidence, question: Question, jobs: int | None) -> Found:
     """jobs : processes; default: as many as cores, at most 4."""
     records = prepared.dataset.fitted
-    known = {**_switched_off(prepared.model, evidence), **question.fixed}
     full, thin = (
-        Fitter(Stack(prepared.model, part, tuple(question.effects), question.bounds, known), question.seed)
+        Fitter(Stack(prepared.model, part, tuple(question.effects), question.bounds, question.fixed), question.seed)
         for part in (records, thinned(prepared.views))
     )
     possible, impossible = thin.stack.candidates()
@@ -73,6 +73,11 @@ def search(prepared: Prepared, evidence: Evidence, question: Question, jobs: int
             best = selection.run(best)
         answers = follows(full, best)
         best = best if answers else base
+        order = _in_order(selection, base, best)
+        given_up = fall_back(thin, base, order)
+        if given_up:
+            order = order[: len(order) - len(given_up.dropped)]
+            best = order[-1][1] if order else base
         final = with_simplest_offset(selection, best)
         return Found(
             full=full,
@@ -85,7 +90,8 @@ def search(prepared: Prepared, evidence: Evidence, question: Question, jobs: int
             follows=answers,
             rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
             without={name: selection.without(best, name) for name in selection.adopted(best)},
-            order=_in_order(selection, base, best),
+            order=order,
+            given_up=given_up,
             impossible=impossible,
         )
 
@@ -99,13 +105,3 @@ def _in_order(selection: Selection, base: Hypothesis, best: Hypothesis) -> tuple
         current, most = min(ranked, key=lambda pair: pair[0].rmse)
         steps.append((most, current))
     return tuple(steps)
-
-
-def _switched_off(model: Model, evidence: Evidence) -> dict[str, float]:
-    memory = evidence.memory
-    return {} if memory.needed or memory.ambiguous else without_hysteresis(model, [v.record for v in evidence.views])
-
-
-def without_fixed_hysteresis(fitter: Fitter, question: Question) -> Fitter:
-    """The fitter of the bare model as it is, whatever the search switched off in it."""
-    return replace(fitter, stack=replace(fitter.stack, fixed=question.fixed))
