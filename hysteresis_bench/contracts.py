@@ -212,3 +212,37 @@ class Rig(ABC):
     @abstractmethod
     def measure(self, experiment: str, rng: Generator) -> Dataset:
         """One experiment -> a dataset with units and, in `hidden`, what was hidden in it."""
+
+
+class Plant(Protocol):
+    """A sampled actuator: a state goes in, a new state comes out, nothing is kept between."""
+
+    def rest(self) -> Any:
+        """The state before anything happens."""
+
+    def step(self, state: Any, voltage: float) -> Any:
+        """One interval later, the voltage held."""
+
+    def displacement(self, state: Any) -> float:
+        """The true output."""
+
+    def read(self, state: Any, rng: Generator) -> float:
+        """What the sensor says."""
+
+
+class SteppedRig(Rig):
+    """A rig that a controller can drive, sample by sample."""
+
+    @abstractmethod
+    def plant(self, rate: float) -> Plant:
+        """The rig as a sampled actuator; rate : samples a second."""
+
+    @property
+    @abstractmethod
+    def input_limit(self) -> float:
+        """Largest input, to either side."""
+
+    @property
+    @abstractmethod
+    def noise_floor(self) -> float:
+        """RMS of what the sensor adds, unit of the output."""
