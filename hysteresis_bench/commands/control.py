@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -84,8 +84,9 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     console.print(f"feed-forward: {folder / FEED_FORWARD}", highlight=False, soft_wrap=True)
 
 
-def _compare(fitted: FittedModel, name: str, rig: str, options: dict, folder: Path, console: Console) -> None:
+def _compare(fitted: FittedModel, name: str, rig: str, options: dict[str, Any], folder: Path, console: Console) -> None:
     from hysteresis_bench import registry
+    from hysteresis_bench.contracts import SteppedRig
     from hysteresis_bench.control.comparison import compare
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.report.control.page import print_control, write_control
@@ -94,8 +95,9 @@ def _compare(fitted: FittedModel, name: str, rig: str, options: dict, folder: Pa
     if faults:
         raise UserError("control", faults)
     bench = registry.build("rigs", rig)
-    if not hasattr(bench, "plant"):
-        able = [each for each in registry.names("rigs") if hasattr(registry.load("rigs", each).loaded, "plant")]
+    if not isinstance(bench, SteppedRig):
+        loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+        able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
         raise UserError("control", f"rig {rig} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
     comparison = compare(fitted, bench, rig, **options)
     page = write_control(folder, comparison, f"{fitted.model} ({name})")

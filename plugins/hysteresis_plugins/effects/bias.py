@@ -24,7 +24,8 @@ class Bias(Effect):
     parameters = (Parameter("offset", -1.0, 1.0, unit="{output}", null=0.0, meaning="added to the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        return inner(signal) + p.offset
+        shifted: Array = inner(signal) + p.offset
+        return shifted
 
     def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         return np.asarray(p.offset)

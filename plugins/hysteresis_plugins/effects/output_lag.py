@@ -7,10 +7,19 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import euler_lag, longest_lag, middling_lag, tustin_lag
 from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
+
+
+def _euler(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return euler_lag(inner(u), longest_lag(hiding), hiding.step)
+
+
+def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return tustin_lag(inner(u), middling_lag(hiding), hiding.step)
 
 
 @dataclass(frozen=True)
@@ -36,6 +45,7 @@ class OutputLag(Effect):
             "what is fast"
         ),
     }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -38,8 +38,9 @@ class RecordDrift(Effect):
         scored = record.time[record.scored]
         since = scored - np.mean(scored)
         left = record.measured[:, None] - simulated[record.scored]
-        slope = since @ left / (since @ since)
-        return simulated + (record.time - np.mean(scored))[:, None] * slope
+        slope: Array = since @ left / (since @ since)
+        line: Array = (record.time - np.mean(scored))[:, None] * slope
+        return simulated + line
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return without_time(records)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import (
@@ -20,6 +20,7 @@ from hysteresis_plugins.effects._ranges import (
     output_span,
     unresolved,
 )
+from hysteresis_plugins.models._eddy_current_hidden import opposed
 
 
 @dataclass(frozen=True)
@@ -53,6 +54,7 @@ class EddyCurrent(Effect):
             "where the slope of the loop changes little, eddy currents are a lag, which at one frequency is a delay"
         ),
     }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (opposed,)
     parameters = (
         Parameter(
             "coefficient", 1e-4, 10.0, "{input} {time}/{output}", "log", null=0.0, meaning="drag on the output's rate"
