@@ -37,15 +37,14 @@ from hysteresis_bench.diagnosis.search.selection import Selection, with_simplest
 from hysteresis_bench.diagnosis.search.systems import OFFSETS, OUTER, Stack
 from hysteresis_bench.diagnosis.search.without_hysteresis import without_hysteresis
 from hysteresis_bench.diagnosis.search.workers import Crew
+from hysteresis_bench.diagnosis.threads import single_threaded
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.fitting import fitted_model
+from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.identifiability import analyse
 from hysteresis_bench.fit.least_squares import split
-from hysteresis_bench.fit.model_file import FittedModel, Preparation
+from hysteresis_bench.fit.model_file import FittedModel, Preparation, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.settling import gap_after, not_closed, open_loops
-from hysteresis_bench.fit.threads import single_threaded
 from hysteresis_bench.signals import Dataset, Record
 
 FOLLOWS = 0.5
@@ -162,7 +161,7 @@ def diagnose(
         _advice(bench, found, rivals, ready.fitted, floor, ties),
         remembers,
         equation,
-        _model(after, dataset, ready, model, settings or {}, preparation),
+        _model(after, ready, model, settings or {}, preparation),
         _responses(ready, before, after),
         {"fitted": [r.name for r in ready.fitted], "held_out": [r.name for r in ready.held_out], "how": how},
         told,
@@ -256,16 +255,19 @@ def _advice(
 
 def _model(
     stage: Stage,
-    dataset: Dataset,
     ready: Dataset,
     model: str,
     settings: Mapping[str, Any],
     preparation: Preparation,
 ) -> FittedModel:
-    errors = _standard_errors(stage.problem, stage.values)
-    named = Dataset(ready.records, ready.held_out_names, dataset.hidden)
     return fitted_model(
-        stage.problem, stage.values, errors, named, ready, model, settings=settings, preparation=preparation
+        stage.problem,
+        stage.values,
+        _standard_errors(stage.problem, stage.values),
+        dataset=ready,
+        model=model,
+        settings=settings,
+        preparation=preparation,
     )
 
 
@@ -277,22 +279,6 @@ def _standard_errors(problem: Problem, values: Array) -> Array:
 
 
 def _responses(ready: Dataset, before: Stage, after: Stage) -> pd.DataFrame:
-    parts = []
-    for record in ready.records:
-        simulated = [
-            stage.problem.system.respond(record, stage.values[:, None])[record.scored, 0] for stage in (before, after)
-        ]
-        parts.append(
-            pd.DataFrame(
-                {
-                    "record": record.name,
-                    "role": "held-out" if record.name in ready.held_out_names else "fitted",
-                    "time": record.time[record.scored],
-                    "input": record.input[record.scored],
-                    "output": record.measured,
-                    "before": simulated[0],
-                    "after": simulated[1],
-                }
-            )
-        )
-    return pd.concat(parts, ignore_index=True)
+    stages = {"before": before, "after": after}
+    responses = {name: simulated(stage.problem.system, ready.records, stage.values) for name, stage in stages.items()}
+    return response_table(ready, responses)
