@@ -8,7 +8,8 @@ from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.contracts import Rig, SteppedRig
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.closed_loop import Controller, Run, track
 from hysteresis_bench.control.feed_forward import FeedForward, feed_forward
 from hysteresis_bench.control.observer import observer
@@ -16,8 +17,9 @@ from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
-from hysteresis_bench.fit.search import generator
+from hysteresis_bench.fit.seeds import generator
 
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours
@@ -56,19 +58,27 @@ class Comparison:
     warnings: tuple[str, ...]
 
 
-def scores_on_rig(fitted: FittedModel, rig: Rig, name: str, seed: int) -> pd.DataFrame:
-    """The scores of `compare`, as a study's stages ask for them. Raises ValueError also for a rig without steps."""
+def stepped_rig(name: str) -> SteppedRig:
+    """A registered rig with default settings that can be run sample by sample. Raises UserError where it cannot."""
+    faults = registry.faults("rigs", name, {})
+    if faults:
+        raise UserError("control", faults)
+    rig = registry.build("rigs", name)
     if not isinstance(rig, SteppedRig):
-        raise ValueError(f"rig {name} cannot be run sample by sample")
-    return compare(fitted, rig, name, seed=seed).scores
+        loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+        able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
+        raise UserError(
+            "control", f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}."
+        )
+    return rig
 
 
 def compare(
-    fitted: FittedModel, rig: SteppedRig, name: str, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
+    fitted: FittedModel, rig: SteppedRig, name: str, *, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
 ) -> Comparison:
     """Run every controller that the model allows along every reference, on the rig.
 
-    name : of the rig
+    rig : a rig with a stepwise `plant(rate)` and a `voltage_limit`;  name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
     Raises ValueError where the model has no inverse, its linear section is unstable, or the sampling is too slow.
@@ -112,8 +122,8 @@ def _controllers(
 
 
 def _model_error(fitted: FittedModel, amplitude: float) -> float:
-    told = (fitted.error.get("fitted") or {}).get("rmse")
-    return float(told) if told else UNKNOWN_ERROR * amplitude
+    rmse = (fitted.error.get("fitted") or {}).get("rmse")
+    return float(rmse) if rmse else UNKNOWN_ERROR * amplitude
 
 
 def _shown(run: Run) -> pd.DataFrame:
@@ -141,15 +151,15 @@ NOTES = (
 
 
 def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
-    told = [
+    sentences = [
         f"{row.controller} on {row.reference}: the voltage limit cut {100 * row.saturated_share:.1f} % of the samples."
         for row in scores[scores["saturated_share"] > 0].itertuples()
     ]
     if forward.ignored:
-        told.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
+        sentences.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
     if forward.linear is None:
-        told.append(
+        sentences.append(
             "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
             "because the model does not know where the actuator resonates. Fit hammerstein for both."
         )
-    return tuple(told)
+    return tuple(sentences)

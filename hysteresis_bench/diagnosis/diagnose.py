@@ -9,19 +9,18 @@ from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
-from hysteresis_bench.fit.threads import single_threaded
+from hysteresis_bench.diagnosis.threads import single_threaded
 from hysteresis_bench.signals import Dataset
 
 
 @single_threaded
-def diagnose(dataset: Dataset, question: Question, jobs: int | None = None) -> Diagnosis:
+def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 
-    jobs : processes; default: as many as cores, at most 4
     Raises UserError telling every fault at once.
     """
     prepared = prepare(dataset, question)
     evidence = gather(prepared.views)
-    found = search(prepared, evidence, question, jobs)
+    found = search(prepared, evidence, question)
     stages = settle_offset(prepared, found, question)
     return conclude(dataset, question, prepared, found, stages)

@@ -45,7 +45,7 @@ def prepare(dataset: Dataset, question: Question) -> Prepared:
     """Prepare the input, let closed loops settle, hold a part out. Raises UserError telling every fault at once."""
     question.check(dataset)
     model, seen = question.built, dataset.map(question.preparation)
-    passes = passes_to_close(model, seen, question) if question.settle else 0
+    passes = passes_to_close(model, seen, question) if question.options.settle else 0
     seen = seen.map(lambda record: record.settled(passes)) if passes else seen
     ready, how = with_held_out(seen)
     return Prepared(model, ready, how, views_of(ready.fitted), passes)
@@ -57,7 +57,7 @@ def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:
     while True:
         records = tuple(record.settled(passes) for record in dataset.fitted)
         stack = Stack(model, thinned(views_of(records)), tuple(question.effects), question.bounds, question.fixed)
-        fitter = Fitter(stack, question.seed)
+        fitter = Fitter(stack, question.options.seed)
         system, values = fitter.fitted(fitter.bare(frozenset({registry.RECORD_OFFSET})))
         if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
             return passes

@@ -20,14 +20,29 @@ FEWEST_SAMPLES = 40
 
 
 @dataclass(frozen=True)
+class DiagnosisOptions:
+    """How a diagnosis is made.
+
+    seed : of all searches;  jobs : processes; default: as many as cores, at most 4
+    input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    settle : closed loops are repeated until they close before they are scored
+    accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
+    """
+
+    seed: int = 0
+    jobs: int | None = None
+    input_offset: float = 0.0
+    flip: bool = False
+    settle: bool = False
+    accept_terms: bool = False
+
+
+@dataclass(frozen=True)
 class Question:
     """What does this model lack on the fitted records?
 
     model, settings : a registered model;  effects : known to act, around the model from the beginning
     bounds : replaces parts of the box that follows from the records;  fixed : parameters that are known
-    preparation : what is done to every input before the model sees it
-    settle : closed loops are repeated until they close before they are scored
-    accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
     """
 
     model: str
@@ -35,10 +50,12 @@ class Question:
     settings: Mapping[str, Any] = field(default_factory=dict)
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     fixed: Mapping[str, float] = field(default_factory=dict)
-    preparation: Preparation = field(default_factory=Preparation)
-    settle: bool = False
-    accept_terms: bool = False
-    seed: int = 0
+    options: DiagnosisOptions = DiagnosisOptions()
+
+    @property
+    def preparation(self) -> Preparation:
+        """What is done to every input before the model sees it."""
+        return Preparation(self.options.input_offset, self.options.flip)
 
     @property
     def built(self) -> Model:
@@ -55,7 +72,7 @@ class Question:
             known = registry.build_effects(self.built, self.effects)
             reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}
             faults += [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]
-        faults += open_loops(dataset.records) if self.settle else []
+        faults += open_loops(dataset.records) if self.options.settle else []
         for record in dataset.fitted:
             if np.ptp(record.measured) == 0:
                 faults.append(f"record {record.name}: the output is constant; there is nothing to diagnose.")

@@ -6,7 +6,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.diagnose import diagnose
-from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.signals import Dataset, Record
 
@@ -51,14 +51,14 @@ def thin_loops(alpha, noise, seed):
 @pytest.mark.parametrize(("alpha", "noise", "seed"), [(0.02, 0.001, 1), (0.05, 0.003, 2), (0.01, 0.0005, 3)])
 def test_a_thin_clean_loop_is_left_to_the_model(alpha, noise, seed):
     dataset, unseen, rms = thin_loops(alpha, noise, seed)
-    found = diagnose(dataset, Question("bouc-wen"), jobs=1)
+    found = diagnose(dataset, Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
     assert found.effects == ()
     assert found.verdict == "no-effect-needed"
     assert accuracy(found.after.problem.system, unseen, found.after.values).rmse < 1.15 * rms
 
 
 def test_a_linear_device_with_a_delay():
-    found = diagnose(late_lines(), Question("bouc-wen"), jobs=1)
+    found = diagnose(late_lines(), Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
     assert not found.memory.needed
     assert found.effects == ("transport-delay",)
     values = {name: estimate.value for name, estimate in found.model.parameters.items()}

@@ -22,9 +22,9 @@ from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warning
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.fit.fitting import fitted_model
+from hysteresis_bench.fit.accuracy import response_table, simulated
 from hysteresis_bench.fit.identifiability import analyse
-from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.settling import gap_after, not_closed
 from hysteresis_bench.signals import Dataset
@@ -40,7 +40,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
     candidates, after, evidence = candidates_of(found, ties), stages.after, found.evidence
     adopted, waterfall = stages.adopted, stages.waterfall
     equation, remains = remainder(after, evidence)
-    if question.accept_terms and equation and equation.terms:
+    if question.options.accept_terms and equation and equation.terms:
         candidates = (description_row(equation, after), *candidates)
         after = _described(found, equation, prepared)
         adopted = (*adopted, registry.DESCRIPTION)
@@ -64,7 +64,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         advice=_advice(found, ties),
         memory=evidence.memory,
         equation=equation,
-        model=_model(after, dataset, prepared, question),
+        model=_model(after, prepared, question),
         responses=_responses(prepared.dataset, stages.before, after),
         split={
             "fitted": [record.name for record in prepared.dataset.fitted],
@@ -101,11 +101,16 @@ def _open(after: Stage, prepared: Prepared) -> list[str]:
     return not_closed(gap, prepared.passes)
 
 
-def _model(stage: Stage, dataset: Dataset, prepared: Prepared, question: Question) -> FittedModel:
-    errors, ready = _standard_errors(stage.problem, stage.values), prepared.dataset
-    named = Dataset(ready.records, ready.held_out_names, dataset.hidden)
-    about = {"settings": question.settings, "preparation": question.preparation}
-    return fitted_model(stage.problem, stage.values, errors, named, ready, question.model, **about)
+def _model(stage: Stage, prepared: Prepared, question: Question) -> FittedModel:
+    return fitted_model(
+        stage.problem,
+        stage.values,
+        _standard_errors(stage.problem, stage.values),
+        dataset=prepared.dataset,
+        model=question.model,
+        settings=question.settings,
+        preparation=question.preparation,
+    )
 
 
 def _standard_errors(problem: Problem, values: Array) -> Array:
@@ -116,22 +121,7 @@ def _standard_errors(problem: Problem, values: Array) -> Array:
 
 
 def _responses(ready: Dataset, before: Stage, after: Stage) -> pd.DataFrame:
-    parts = []
-    for record in ready.records:
-        simulated = [
-            stage.problem.system.respond(record, stage.values[:, None])[record.scored, 0] for stage in (before, after)
-        ]
-        parts.append(
-            pd.DataFrame(
-                {
-                    "record": record.name,
-                    "role": "held-out" if record.name in ready.held_out_names else "fitted",
-                    "time": record.time[record.scored],
-                    "input": record.input[record.scored],
-                    "output": record.measured,
-                    "before": simulated[0],
-                    "after": simulated[1],
-                }
-            )
-        )
-    return pd.concat(parts, ignore_index=True)
+    stages = {"before": before, "after": after}
+    return response_table(
+        ready, {name: simulated(one.problem.system, ready.records, one.values) for name, one in stages.items()}
+    )

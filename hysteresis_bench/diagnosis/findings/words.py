@@ -85,8 +85,8 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
 def _gave_up(fallback: Fallback) -> str:
     were = "was" if len(fallback.dropped) == 1 else "were"
     return (
-        f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the RMSE "
-        f"was {fallback.selected:.3g} with it, {fallback.kept:.3g} without, and {fallback.bare:.3g} of the bare model."
+        f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the "
+        f"RMSE was {fallback.selected:.3g} with it and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
     )
 
 

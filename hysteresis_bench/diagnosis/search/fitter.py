@@ -20,7 +20,8 @@ from hysteresis_bench.diagnosis.search.starts import grid
 from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_of, split, values_of
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.search import generator, search, shared_start
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.parameters import Parameter
 
 BUDGET = 1500

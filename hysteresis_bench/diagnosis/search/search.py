@@ -54,15 +54,17 @@ class Found:
     impossible: Mapping[str, str]
 
 
-def search(prepared: Prepared, evidence: Evidence, question: Question, jobs: int | None) -> Found:
-    """jobs : processes; default: as many as cores, at most 4."""
+def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
+    """In as many processes as the question's options say."""
     records = prepared.dataset.fitted
     full, thin = (
-        Fitter(Stack(prepared.model, part, tuple(question.effects), question.bounds, question.fixed), question.seed)
+        Fitter(
+            Stack(prepared.model, part, tuple(question.effects), question.bounds, question.fixed), question.options.seed
+        )
         for part in (records, thinned(prepared.views))
     )
     possible, impossible = thin.stack.candidates()
-    with Workers(thin, jobs or min(4, os.cpu_count() or 1)) as workers:
+    with Workers(thin, question.options.jobs or min(4, os.cpu_count() or 1)) as workers:
         selection = Selection(thin, workers, evidence.floor, possible)
         base = thin.bare(frozenset({registry.RECORD_OFFSET}))
         best = selection.run(base)

@@ -11,15 +11,9 @@ from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis_study.case import Case, compared
-from hysteresis_bench.diagnosis_study.run import (
-    FOLDER,
-    NOTHING,
-    STUDY,
-    confusion,
-    is_diagnosis_study,
-    read_cases,
-    read_diagnosis_study,
-)
+from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.results import FOLDER, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import told, write_closing_page
 
