@@ -22,8 +22,10 @@ LANES = 64
 """Particles that are integrated side by side."""
 
 # Rows of one work array: constant offsets tell the compiler that they do not overlap.
-G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, DIRECTION, RISING = (row * LANES for row in range(11))
-ROWS = 11
+G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, MIRROR, DIRECTION, INPUT = (
+    row * LANES for row in range(12)
+)
+ROWS = 12
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
@@ -103,15 +105,23 @@ def _mended(work: Array, used: int) -> None:
         work[G + j] = min(max(work[G + j], -work[BOUND + j]), work[BOUND + j])
 
 
-@njit(cache=True, error_model="numpy")
-def _turned(work: Array, used: int) -> None:
-    """Reversal of the input of the lanes whose increment (in WIDTH, with its sign) and RISING disagree:
-    g = s h changes sign with s."""
-    for j in range(used):
-        if work[WIDTH + j] * work[RISING + j] < 0.0:
-            work[RISING + j] = -work[RISING + j]
-            work[G + j] = -work[G + j]
-            work[DIRECTION + j] = -work[DIRECTION + j]
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _fine(work, j, g, width):  # type: ignore[no-untyped-def]
+    """g of one lane after an increment that is short enough for the series."""
+    along = work[ALONG + j]
+    against = work[AGAINST + j]
+    rate = against if g < 0.0 else along
+    return relaxed(g, work[DRIVE + j], rate, width * _series(rate * width))
+
+
+@njit(inline="always", error_model="numpy")
+def _turned(work, j, step):  # type: ignore[no-untyped-def]
+    """g = s h of one lane changes sign with s, the direction of the input."""
+    mirror = work[MIRROR + j]
+    direction = mirror if step >= 0.0 else -mirror
+    g = work[G + j] * work[DIRECTION + j]
+    work[DIRECTION + j] = direction
+    return g * direction
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -135,6 +145,7 @@ def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Arr
         work = np.zeros(ROWS * LANES)
         fastest = 0.0
         widest = 0.0
+        rising = True
         for j in range(used):
             column = first + j if columns > 1 else 0
             loop = alpha[first + j] * d[first + j]
@@ -144,47 +155,59 @@ def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Arr
             work[AGAINST + j] = beta[first + j] - mirror * gamma[first + j]
             work[BOUND + j] = RUNAWAY * abs(loop) * length[column]
             work[SLOPE + j] = d[first + j]
+            work[MIRROR + j] = mirror
             work[DIRECTION + j] = mirror
-            work[RISING + j] = 1.0
             widest = max(widest, largest[column])
             fastest = max(fastest, max(abs(work[ALONG + j]), abs(work[AGAINST + j])))
+            work[INPUT + j] = u[0, column]
             v[0, first + j] = d[first + j] * u[0, column]
         for i in range(1, samples):
-            turned = 0
+            steepest = fastest * (widest if columns > 1 else abs(u[i, 0] - u[i - 1, 0]))
+            special = 0
             if columns > 1:
                 for j in range(used):
-                    step = u[i, first + j] - u[i - 1, first + j]
-                    work[WIDTH + j] = step
-                    turned += 1 if step * work[RISING + j] < 0.0 else 0
-                if turned > 0:
-                    _turned(work, used)
-                for j in range(used):
-                    work[WIDTH + j] = abs(work[WIDTH + j])
-                if _coarse(work, used, fastest * widest) > 0:
+                    x = u[i, first + j]
+                    work[WIDTH + j] = x - work[INPUT + j]
+                    work[INPUT + j] = x
+                if steepest > SERIES_LIMIT:
+                    for j in range(used):
+                        work[G + j] = _turned(work, j, work[WIDTH + j])
+                        work[WIDTH + j] = abs(work[WIDTH + j])
+                    special = _coarse(work, used, steepest)
+                    for j in range(used):
+                        v[i, first + j] = work[SLOPE + j] * work[INPUT + j] - work[DIRECTION + j] * work[G + j]
+                else:
+                    for j in range(used):
+                        g = _turned(work, j, work[WIDTH + j])
+                        width = abs(work[WIDTH + j])
+                        free = _fine(work, j, g, width)
+                        work[WIDTH + j] = width
+                        work[OLD + j] = g
+                        work[G + j] = free
+                        v[i, first + j] = work[SLOPE + j] * work[INPUT + j] - work[DIRECTION + j] * free
+                        special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
+                if special > 0:
                     _mended(work, used)
-                for j in range(used):
-                    v[i, first + j] = work[SLOPE + j] * u[i, first + j] - work[DIRECTION + j] * work[G + j]
+                    for j in range(used):
+                        v[i, first + j] = work[SLOPE + j] * work[INPUT + j] - work[DIRECTION + j] * work[G + j]
                 continue
 
             x = u[i, 0]
             step = x - u[i - 1, 0]
             width = abs(step)
-            if step * work[RISING] < 0.0:
-                work[WIDTH : WIDTH + used] = step
-                _turned(work, used)
-            special = 0
-            if fastest * width > SERIES_LIMIT:
+            if (step < 0.0) == rising and step != 0.0:
+                rising = not rising
+                for j in range(used):
+                    work[G + j] = _turned(work, j, step)
+            if steepest > SERIES_LIMIT:
                 work[WIDTH : WIDTH + used] = width
-                special = _coarse(work, used, fastest * width)
+                special = _coarse(work, used, steepest)
                 for j in range(used):
                     v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
-            else:  # finely sampled data: the same in one pass
+            else:  # the same in one pass
                 for j in range(used):
                     g = work[G + j]
-                    along = work[ALONG + j]
-                    against = work[AGAINST + j]
-                    rate = against if g < 0.0 else along
-                    free = relaxed(g, work[DRIVE + j], rate, width * _series(rate * width))
+                    free = _fine(work, j, g, width)
                     work[OLD + j] = g
                     work[G + j] = free
                     v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * free

@@ -48,7 +48,7 @@ def test_processes_that_fill_a_fresh_cache_in_turn_agree(tmp_path, first, second
 
 def kernels_in_the_cache():
     for package in (hysteresis_bench.kernels, hysteresis_plugins.rigs):
-        for module in pkgutil.iter_modules(package.__path__, package.__name__ + "."):
+        for module in pkgutil.walk_packages(package.__path__, package.__name__ + "."):
             importlib.import_module(module.name)
     every = (kernel for kernel in gc.get_objects() if type(kernel) is CPUDispatcher)
     return [
