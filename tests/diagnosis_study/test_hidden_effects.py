@@ -20,9 +20,6 @@ from hysteresis_plugins.models._eddy_current_hidden import relaxed
 from tests.diagnosis.generator import EFFECTS
 
 BENCHES = tomllib.loads((Path(__file__).parents[2] / "studies" / "closing_the_loop.toml").read_text())["bench"]
-KEPT = ("bouc-wen", "free-energy", "jiles-atherton")
-"""Models of the kept study of diagnosis; its draws are among EFFECTS."""
-
 TIME = np.arange(6400) * (3.0 / 6400)
 STEP = float(TIME[1])
 DRIVE = np.sin(2.0 * np.pi * TIME) * (1.0 - 0.2 * TIME)
