@@ -53,6 +53,16 @@ def test_it_is_listed():
     assert "An even nonlinearity of the output" in told
 
 
+def test_an_effect_that_does_not_declare_itself_is_broken_and_stops_no_other(dataset):
+    assert registry.load("effects", "faulty-silent").fault == "Silent lacks acts, family"
+    assert 'Did you mean "output"?' in registry.load("effects", "faulty-misspelt").fault
+    _, impossible = Stack(registry.build("models", "bouc-wen"), dataset.records).candidates()
+    assert {name for name, reason in impossible.items() if reason.startswith("broken")} == {
+        "faulty-misspelt",
+        "faulty-silent",
+    }
+
+
 def test_it_has_its_place_in_the_chain(dataset):
     stack = Stack(registry.build("models", "bouc-wen"), dataset.records)
     order = [name for name, _ in stack.system({"drift", ZERO, BEND, "input-lag", "output-lag", "saturation"}).effects]
