@@ -36,7 +36,8 @@ class Observer:
 
     def predicted(self, estimate: Array, v: float) -> Array:
         """The estimate one sample later, v held."""
-        return self.transition @ estimate + self.drive * v
+        later: Array = self.transition @ estimate + self.drive * v
+        return later
 
 
 def observer(linear: LinearSection, bandwidth: float, interval: float) -> Observer:

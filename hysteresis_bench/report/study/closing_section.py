@@ -79,9 +79,8 @@ def closing_in_words(closing: Closing) -> str:
     """One sentence: the verdict, or why there is none."""
     if closing.finished:
         return f"Closing the loop: {closing.diagnosis['headline']}"
-    return sentence(
-        f"The loop was not closed, the diagnosis has no result ({closing.outcome['status']}): {closing.outcome['reason']}"
-    )
+    status, reason = (closing.outcome[key] for key in ("status", "reason"))
+    return sentence(f"The loop was not closed, the diagnosis has no result ({status}): {reason}")
 
 
 def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
