@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from hysteresis_bench import registry
+from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.closed_loop import Controller, Run, track
 from hysteresis_bench.control.feed_forward import FeedForward, feed_forward
 from hysteresis_bench.control.observer import observer
@@ -17,7 +17,6 @@ from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
-from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.seeds import generator
 
@@ -58,44 +57,46 @@ class Comparison:
     warnings: tuple[str, ...]
 
 
-def stepped_rig(name: str) -> Any:
-    """A registered rig with default settings that can be run sample by sample. Raises UserError where it cannot."""
-    faults = registry.faults("rigs", name, {})
-    if faults:
-        raise UserError("control", faults)
-    rig = registry.build("rigs", name)
-    if not hasattr(rig, "plant"):
-        able = [each for each in registry.names("rigs") if hasattr(registry.load("rigs", each).loaded, "plant")]
-        raise UserError(
-            "control", f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}."
-        )
-    return rig
+def stepped_rig(name: str, settings: Mapping[str, Any] | None = None) -> SteppedRig:
+    """A registered rig that can be run sample by sample. Raises ValueError where it cannot, or where it is none."""
+    rig = registry.build("rigs", name, settings)
+    if isinstance(rig, SteppedRig):
+        return rig
+    loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+    able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
+    raise ValueError(f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
 
 
 def compare(
-    fitted: FittedModel, rig: Any, name: str, *, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
+    fitted: FittedModel,
+    rig: SteppedRig,
+    name: str,
+    *,
+    rate: float = RATE,
+    amplitude: float = AMPLITUDE,
+    seed: int = 0,
 ) -> Comparison:
     """Run every controller that the model allows along every reference, on the rig.
 
-    rig : a rig with a stepwise `plant(rate)` and a `voltage_limit`;  name : of the rig
+    name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
     Raises ValueError where the model has no inverse, its linear section is unstable, or the sampling is too slow.
     """
     forward = feed_forward(fitted)
     controllers, tuning = _controllers(forward, 1.0 / rate, _model_error(fitted, amplitude))
-    plant, floor = rig.plant(rate), _noise_floor(rig)
+    plant, floor = rig.plant(rate), rig.noise_floor
     scores, responses = [], []
     for reference in published_references(amplitude, rate):
         for label, controller in controllers.items():
             rng = generator(seed, name, reference.name)
-            run = track(plant, controller, forward, reference, rig.voltage_limit, rng, series=label == IN_SERIES)
+            run = track(plant, controller, forward, reference, rig.input_limit, rng, series=label == IN_SERIES)
             key = {"reference": reference.name, "controller": label}
             floors = {"noise_floor": floor, "delay_floor": reference.delay_floor}
             scores.append(key | run.scores() | floors | {"unit": fitted.units["output"]})
             responses.append(_shown(run).assign(**key))
     table = pd.DataFrame(scores)
-    conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.voltage_limit}
+    conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
     return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, _warnings(table, forward))
 
 
@@ -123,11 +124,6 @@ def _controllers(
 def _model_error(fitted: FittedModel, amplitude: float) -> float:
     rmse = (fitted.error.get("fitted") or {}).get("rmse")
     return float(rmse) if rmse else UNKNOWN_ERROR * amplitude
-
-
-def _noise_floor(rig: Any) -> float:
-    """RMS of what the sensor adds: its noise, and rounding to its resolution."""
-    return float(np.hypot(getattr(rig, "noise", 0.0), getattr(rig, "resolution", 0.0) / np.sqrt(12.0)))
 
 
 def _shown(run: Run) -> pd.DataFrame:

@@ -25,7 +25,6 @@ from hysteresis_bench.diagnosis.findings.candidates import (
     ties_of,
     waterfall_of,
 )
-from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
 from hysteresis_bench.diagnosis.findings.description import accepted
 from hysteresis_bench.diagnosis.findings.result import Diagnosis, Stage, Verdict
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
@@ -34,7 +33,7 @@ from hysteresis_bench.diagnosis.findings.words import carries_over, headline, wa
 from hysteresis_bench.diagnosis.preparation import passes_to_close, thinned, with_held_out
 from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
 from hysteresis_bench.diagnosis.search.selection import Selection, with_simplest_offset
-from hysteresis_bench.diagnosis.search.systems import OFFSETS, OUTER, Stack
+from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.diagnosis.search.without_hysteresis import without_hysteresis
 from hysteresis_bench.diagnosis.search.workers import Crew
 from hysteresis_bench.diagnosis.threads import single_threaded
@@ -45,6 +44,7 @@ from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.model_file import FittedModel, Preparation, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.settling import gap_after, not_closed, open_loops
+from hysteresis_bench.registry import COMMON_OFFSET, DESCRIPTION, OFFSETS, RECORD_OFFSET
 from hysteresis_bench.signals import Dataset, Record
 
 FOLLOWS = 0.5
@@ -104,7 +104,7 @@ def diagnose(
     possible, impossible = bench.stack.candidates()
     with Crew(bench, jobs or min(4, os.cpu_count() or 1)) as crew:
         selection = Selection(bench, crew, floor, possible)
-        base = bench.bare(frozenset({"record-offset"}))
+        base = bench.bare(frozenset({RECORD_OFFSET}))
         found = selection.run(base)
         quieter = pooled_noise(without_hum(full, found))
         if quieter.floor < QUIETER * loud.floor:  # a fast hum had passed for noise
@@ -119,9 +119,9 @@ def diagnose(
         candidates = candidate_rows(selection, found, impossible, ties)
         order = in_order(selection, base, found)
     offset = next((name for name in OFFSETS if name in final.names), "")
-    adopted = (*(name for name, _ in order), *(["bias"] if offset == "bias" else []))
+    adopted = (*(name for name, _ in order), *([COMMON_OFFSET] if offset == COMMON_OFFSET else []))
     # where more than an offset is missing, before has the offset too: the gain is the effects' own
-    nuisance = frozenset(OFFSETS if order else ["record-offset"]) & final.names
+    nuisance = frozenset(OFFSETS if order else [RECORD_OFFSET]) & final.names
     whole, thin = (replace(one, stack=replace(one.stack, fixed=fixed)) for one in (full, bench))
     bare = thin.bare(nuisance)
     if final.names == nuisance and final.rmse < bare.rmse:
@@ -191,7 +191,8 @@ def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: S
 
 def _follows(bench: Bench, trial: Trial) -> bool:
     """Does the response to the input, without what is merely added to it, explain the output?"""
-    names = trial.names - (set(OUTER) - {"record-offset"})
+    stack = bench.stack
+    names = frozenset(n for n in trial.names if n == RECORD_OFFSET or stack.effect(n).acts != "added")
     answering, own = bench.fitted(replace(trial, names=names))
     whole, every = bench.fitted(trial)
     left = explained = 0.0

@@ -42,7 +42,8 @@ def model(name="hammerstein", effects=(), preparation=None, **changed):
 class StandIn:
     """A plant that is nearly the model: another loop height, a stiffer spring, a noisy and quantised sensor."""
 
-    voltage_limit, noise, resolution = 5.0, 0.003, 0.003
+    input_limit, noise, resolution = 5.0, 0.003, 0.003
+    noise_floor = np.hypot(noise, resolution / np.sqrt(12.0))
 
     def __init__(self, alpha=1.2 * PUBLISHED["alpha"], stiffness=1.1 * LINEAR["k_over_m"]):
         truth = model(alpha=alpha, k_over_m=stiffness)
@@ -126,7 +127,7 @@ def test_same_seed_same_numbers_other_seed_others():
 
 def test_a_voltage_limit_is_flagged_and_stays_finite():
     rig = StandIn()
-    rig.voltage_limit = 1.0
+    rig.input_limit = 1.0
     found = compare(model(), rig, "stand-in", rate=2000.0)
     assert np.isfinite(found.scores.select_dtypes("number").to_numpy()).all()
     assert (by_controller(found, "saturated_share").loc["ramp"] > 0.2).all()
