@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
+from html import escape
 from typing import Any
 
 import pandas as pd
@@ -56,6 +57,12 @@ class Comparison:
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        """For a notebook: the RMS tracking error, references by controllers, and the warnings."""
+        table = self.scores.pivot_table(index="reference", columns="controller", values="t_rmse", sort=False)
+        sentences = "".join(f"<p>{escape(warning)}</p>" for warning in self.warnings)
+        return f"<p>RMS tracking error, {self.units['output']}</p>{table.to_html(float_format='%.4g')}{sentences}"
+
 
 def stepped_rig(name: str, settings: Mapping[str, Any] | None = None) -> SteppedRig:
     """A registered rig that can be run sample by sample. Raises ValueError where it cannot, or where it is none."""
@@ -90,7 +97,15 @@ def compare(
     for reference in published_references(amplitude, rate):
         for label, controller in controllers.items():
             rng = generator(seed, name, reference.name)
-            run = track(plant, controller, forward, reference, rig.input_limit, rng, series=label == IN_SERIES)
+            run = track(
+                plant,
+                controller,
+                forward,
+                reference=reference,
+                limit=rig.input_limit,
+                rng=rng,
+                series=label == IN_SERIES,
+            )
             key = {"reference": reference.name, "controller": label}
             floors = {"noise_floor": floor, "delay_floor": reference.delay_floor}
             scores.append(key | run.scores() | floors | {"unit": fitted.units["output"]})
@@ -160,6 +175,6 @@ def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
     if forward.linear is None:
         sentences.append(
             "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
-            "because the model does not know where the actuator resonates. Fit hammerstein for both."
+            f"because the model does not know where the actuator resonates. Fit {registry.HAMMERSTEIN} for both."
         )
     return tuple(sentences)
