@@ -10,9 +10,9 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.evidence.view import View, views_of
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
 from hysteresis_bench.signals import Dataset, Record
 

@@ -11,9 +11,9 @@ from click.testing import CliRunner
 from hysteresis_bench import diagnose, registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis.findings.ties import GENERIC, tie
+from hysteresis_bench.diagnosis.hypotheses import systems
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
-from hysteresis_bench.diagnosis.search import systems
-from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects, can_be_hidden
 from hysteresis_bench.fit.fitting import fit_records
 from hysteresis_bench.signals import Dataset, joined
