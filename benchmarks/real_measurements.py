@@ -23,6 +23,7 @@ import numpy as np
 from hysteresis_bench import load
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.report.diagnosis.figures import waterfall
 from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render
 from hysteresis_bench.signals import Dataset, Record
@@ -352,7 +353,7 @@ def main(say: Callable[[str], None] = print) -> None:
         if case.name not in arguments.names if arguments.names else case.name in rows:
             continue
         begun = time.monotonic()
-        found = diagnose(prepared(case), case.model, **case.options)
+        found = diagnose(prepared(case), Question(case.model, **case.options))
         rows[case.name] = {
             key: str(v) if v is not None else "" for key, v in row(case, found, time.monotonic() - begun).items()
         }

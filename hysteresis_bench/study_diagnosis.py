@@ -14,6 +14,7 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis.figures import fewer
 from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
@@ -99,7 +100,7 @@ def run_closing(ticket: ClosingTicket) -> Ended:
     seen = closing_dataset(study, Path(ticket.data))
     blind = Dataset(seen.records, seen.held_out_names)
     try:
-        found = diagnose(blind, spec.model, settings=spec.settings, effects=spec.effects, seed=study.seed, jobs=1)
+        found = diagnose(blind, Question(spec.model, spec.effects, spec.settings, seed=study.seed), jobs=1)
     except UserError as error:
         return Ended("raised", " ".join(error.faults))
     write_diagnosis(out, found)

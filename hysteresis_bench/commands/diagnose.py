@@ -50,20 +50,20 @@ def diagnose(
     from hysteresis_bench import load
     from hysteresis_bench.diagnosis.diagnose import diagnose as find
     from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+    from hysteresis_bench.diagnosis.question import Question
+    from hysteresis_bench.fit.model_file import Preparation
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
     dataset = load(*data, held_out=held_out, skip=skip)
-    found = find(
-        dataset,
+    question = Question(
         model,
-        effects=effects,
-        input_offset=input_offset,
-        flip=flip,
+        effects,
+        preparation=Preparation(input_offset, flip),
         settle=settle,
         accept_terms=accept_terms,
         seed=seed,
-        jobs=jobs,
     )
+    found = find(dataset, question, jobs)
     console = Console(soft_wrap=False)
     print_diagnosis(found, console)
     path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)

@@ -8,9 +8,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-
-SAME_STEP = 1e-9
-"""Steps of the time grid that differ by less than this share count as equal."""
+from hysteresis_bench.kernels.linear_stage import SAME_STEP
 
 ANCHOR = 32
 """After so many rotations the sinusoid is computed anew, so that rounding does not add up."""
