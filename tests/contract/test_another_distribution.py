@@ -12,6 +12,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.ties import GENERIC, tie
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search import systems
 from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects, can_be_hidden
@@ -91,7 +92,7 @@ def test_the_rig_hides_it_and_no_nuisance(rig, dataset):
 
 
 def test_it_is_diagnosed(dataset):
-    found = diagnose(Dataset(dataset.records, dataset.held_out_names), "bouc-wen", jobs=1)
+    found = diagnose(Dataset(dataset.records, dataset.held_out_names), Question("bouc-wen"), jobs=1)
     assert BEND in found.effects or BEND in {one.rival for one in found.ties}
     assert found.after.held_out.rmse < 0.7 * found.before.held_out.rmse
 
