@@ -141,7 +141,8 @@ def diagnose(
         verdict = "unexplained-residual"
     told = warnings(built, ready.fitted, final, after, alone, floor, loud.floor, ties)
     if passes:
-        told = (*told, *not_closed(gap_after(after.problem.system, ready.fitted, after.values, passes), passes))
+        gap = gap_after(after.problem.system, ready.fitted, after.values, repeats=passes)
+        told = (*told, *not_closed(gap, passes))
     if not carries_over(before, after):
         told = ("What was adopted does not carry over to the held-out records: do not believe the names.", *told)
     return Diagnosis(

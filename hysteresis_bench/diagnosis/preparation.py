@@ -41,7 +41,7 @@ def passes_to_close(
         bench = Bench(Stack(model, thinned(records), tuple(effects), bounds, fixed), seed)
         bare = bench.bare(frozenset({RECORD_OFFSET}))
         system, values = bench.fitted(bare)
-        if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
+        if passes >= MOST_REPEATS or gap_after(system, records, values, repeats=passes) < CLOSED:
             return passes
         passes *= 2
 

@@ -56,7 +56,7 @@ def cut(records: Sequence[Record]) -> Blocks:
 def left_out_errors(problem: Problem, point: Array, blocks: Blocks) -> Array:
     """Errors (scored samples,) of every sample by the fit that did not count it; point : (dimension,)."""
     starts = np.repeat(point[:, None], FOLDS, axis=1)
-    points, _ = descend(problem, starts, blocks.training, ITERATIONS)
+    points, _ = descend(problem, starts, blocks.training, iterations=ITERATIONS)
     return errors(problem, points)[np.arange(blocks.fold.size), blocks.fold]
 
 
