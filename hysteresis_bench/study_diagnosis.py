@@ -17,6 +17,7 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis.figures import fewer
 from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
@@ -124,7 +125,9 @@ def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
     seen = closing_dataset(study, Path(ticket.data))
     blind = Dataset(seen.records, seen.held_out_names)
     try:
-        found = diagnose(blind, spec.model, settings=spec.settings, effects=spec.effects, seed=study.seed, jobs=1)
+        options = DiagnosisOptions(seed=study.seed, jobs=1)
+        asked = Question(spec.model, spec.effects, spec.settings, options=options)
+        found = diagnose(blind, asked)
     except UserError as error:
         return DiagnosisEnd("raised", " ".join(error.faults))
     write_diagnosis(out, found)
