@@ -59,7 +59,7 @@ def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:
         stack = Stack(model, thinned(views_of(records)), tuple(question.effects), question.bounds, question.fixed)
         fitter = Fitter(stack, question.options.seed)
         system, values = fitter.fitted(fitter.bare(frozenset({registry.RECORD_OFFSET})))
-        if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
+        if passes >= MOST_REPEATS or gap_after(system, records, values, repeats=passes) < CLOSED:
             return passes
         passes *= 2
 

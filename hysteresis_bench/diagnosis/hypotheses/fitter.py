@@ -164,7 +164,8 @@ class Fitter:
             return np.empty(0)
         start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
         optimizer = registry.build("optimizers", registry.SEARCH)
-        found = search(problem, optimizer, BUDGET, start, generator(self.seed, "diagnosis", run))
+        rng = generator(self.seed, "diagnosis", run)
+        found = search(problem, optimizer, budget=BUDGET, start=start, rng=rng)
         return problem.space.to_unit(found.values[:, None])[:, 0]
 
     def _random(self, problem: Problem, around: Array) -> Array:
