@@ -15,7 +15,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Objective
 
 
-class UnitBox(Problem):  # type: ignore[misc]  # pymoo has no types
+class UnitBox(Problem):
     """The metered loss as pymoo sees it: a population at once, (particles, dimension)."""
 
     def __init__(self, objective: Objective) -> None:
