@@ -96,7 +96,7 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
 def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console) -> int:
     """A study of diagnosis; returns the exit code."""
     from hysteresis_bench.diagnosis_study.run import Told, read_cases, run_diagnosis_study
-    from hysteresis_bench.report.diagnosis_study.page import told, write_closing_page
+    from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 
     def tell(step: Told) -> None:
         if step.case:
@@ -109,9 +109,9 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
         results_folder = run_diagnosis_study(study, trials=trials, jobs=jobs, out=out, tell=tell)
     except KeyboardInterrupt:
         raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
-    for sentence in told(results_folder):
+    for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
-    _say_path(console, "report", write_closing_page(results_folder))
+    _say_path(console, "report", write_diagnosis_study_page(results_folder))
     return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE
 
 
@@ -121,11 +121,11 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
 def report(results: Path, open_it: bool) -> None:
     """Write the report of a results folder again."""
     from hysteresis_bench.diagnosis_study.run import STUDY, is_diagnosis_study
-    from hysteresis_bench.report.diagnosis_study.page import write_closing_page
+    from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
     from hysteresis_bench.report.study import write_report
 
     told = results / STUDY
-    page = write_closing_page(results) if told.is_file() and is_diagnosis_study(told) else write_report(results)
+    page = write_diagnosis_study_page(results) if told.is_file() and is_diagnosis_study(told) else write_report(results)
     _say_path(plain_console(), "report", page)
     if open_it:
         click.launch(str(page))

@@ -14,6 +14,9 @@ from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
 from hysteresis_bench.errors import nearest
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
+FLOOR = "random-search"
+"""The optimizer that learns nothing from what it evaluates: a search that does not beat it is none."""
+
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
 
 

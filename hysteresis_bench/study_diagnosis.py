@@ -10,15 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis.figures import fewer
-from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 from hysteresis_bench.signals import Dataset
-from hysteresis_bench.study.closing_files import CLOSING, DONE, RESPONSES, TOLD, read_closing
+from hysteresis_bench.study.closing_files import CLOSING, DONE, TOLD, read_closing
 from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import closing_dataset
 from hysteresis_bench.study.study_file import Study
@@ -92,7 +88,7 @@ def hidden_names(dataset: Dataset) -> list[str]:
 
 
 def run_closing(ticket: ClosingTicket) -> Ended:
-    """Diagnose and write diagnosis.json, model.json, responses.csv and the page of the diagnosis."""
+    """Diagnose and write diagnosis.json, model.json and responses.csv."""
     study = Study.model_validate_json(ticket.study)
     assert study.closing is not None
     spec, out = study.closing, Path(ticket.out)
@@ -103,8 +99,4 @@ def run_closing(ticket: ClosingTicket) -> Ended:
     except UserError as error:
         return Ended("raised", " ".join(error.faults))
     write_diagnosis(out, found)
-    held_out = found.responses[found.responses["role"] == "held-out"]
-    parts = [fewer(rows) for _, rows in held_out.groupby("record", sort=False)]
-    pd.concat(parts).to_csv(out / RESPONSES, index=False, float_format="%.7g")
-    write_diagnosis_page(out, found)
     return Ended(DONE)

@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
+from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
 from hysteresis_bench.diagnosis.findings.ties import tie
 from hysteresis_bench.fit.accuracy import Accuracy
@@ -72,7 +73,8 @@ def diagnosis() -> Diagnosis:
 
 
 def _written(folder: Path, diagnosis: Diagnosis) -> str:
-    return write_diagnosis_page(folder, diagnosis).read_text(encoding="utf-8")
+    write_diagnosis(folder, diagnosis)
+    return write_diagnosis_page(folder).read_text(encoding="utf-8")
 
 
 def _plain(page: str) -> str:

@@ -15,13 +15,13 @@ from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.report.fit.page import write_fit_page
 from hysteresis_bench.report.paper.claims import FAILS, HOLDS, UNDECIDED, judge
 from hysteresis_bench.report.paper.published import check_published
-from hysteresis_bench.report.shared.page import number, percent, probability, whole
+from hysteresis_bench.report.searches.looks import SHOWN, choose, floors
+from hysteresis_bench.report.shared.text import number, percent, probability, whole
 from hysteresis_bench.report.shared.theme import spread_labels
 from hysteresis_bench.report.study import summarise, write_report
 from hysteresis_bench.report.study.console import print_summary
-from hysteresis_bench.report.study.figures import SHOWN, choose
-from hysteresis_bench.report.study.summary import at_iterations, problems
 from hysteresis_bench.report.study.words import answer
+from hysteresis_bench.report.trials.summary import at_iterations, problems
 from hysteresis_bench.study.results import read_results
 from hysteresis_bench.study.store import Outcome, Store
 from tests.synthetic_study import OPTIMIZERS, PROBLEMS, write_results
@@ -138,7 +138,7 @@ def test_those_who_cannot_be_told_apart_are_named(results):
 
 
 def test_few_are_drawn_and_the_reference_is_among_them(results):
-    looks = choose(problems(results), "pso", ["pso", "mpso"])
+    looks = choose(problems(results), "pso", ["pso", "mpso"], floors(results.study))
     assert len(looks) <= SHOWN
     assert list(looks)[:2] == ["pso", "mpso"]
     assert {"random-search", problems(results)[0].winner} <= set(looks)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,40 +10,12 @@ import numpy as np
 
 from hysteresis_bench import stats
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, picture, spread_labels
-from hysteresis_bench.report.study.summary import INF, NEAR, Problem
+from hysteresis_bench.report.searches.looks import Look
+from hysteresis_bench.report.shared.theme import INK, MUTED, Picture, picture, spread_labels
+from hysteresis_bench.report.trials.problem import INF, NEAR, Problem
 
-SHOWN = 6
-"""Optimizers that get a colour; more lines than this cannot be told apart."""
-
-FLOOR = "random-search"
 EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
-
-
-@dataclass(frozen=True)
-class Look:
-    colour: str
-    dash: str = "-"
-
-
-def choose(problems: Sequence[Problem], reference: str, papers: Sequence[str]) -> dict[str, Look]:
-    """The optimizers that are drawn, with their look, the same on every problem.
-
-    The reference, the paper's, random search, and then the best of each problem by median, in turn.
-    """
-    present = {label for problem in problems for label in problem.labels}
-    wanted = [label for label in (reference, *papers) if label in present]
-    floor = [FLOOR] if FLOOR in present and FLOOR not in wanted else []
-    depth = max((len(problem.ranked) for problem in problems), default=0)
-    turns = [problem.ranked[place] for place in range(depth) for problem in problems if place < len(problem.ranked)]
-    best = [label for label in dict.fromkeys(turns) if label not in (*wanted, *floor)]
-    wanted = list(dict.fromkeys(wanted))[:SHOWN]
-    coloured = wanted + best[: max(0, SHOWN - len(wanted) - len(floor))]
-    looks = {label: Look(colour) for label, colour in zip(coloured, SERIES, strict=False)}
-    if reference in looks:
-        looks[reference] = Look(looks[reference].colour, "--")
-    return looks | {label: Look(MUTED, ":") for label in floor}
 
 
 def convergence(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look], budget: int) -> Picture:
