@@ -11,7 +11,9 @@ from typing import ClassVar
 from hysteresis_bench.report.shared.text import number, percent, unit_cell
 from hysteresis_bench.report.shared.theme import Picture
 
-NUMBER = re.compile(r"–|failed|not reached|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to|of) .*)?")
+NUMBER = re.compile(
+    r"–|failed|not reached|not determined|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to|of) .*)?"
+)
 
 
 @dataclass(frozen=True)

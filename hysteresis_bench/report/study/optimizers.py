@@ -35,13 +35,11 @@ def at_equal_evaluations(
 ) -> Section:
     """Every trial in a figure, every optimizer in a table."""
     how = (
-        f"{SUCCESS} Tests compare fitness, each optimizer with the reference, {reference}, and with the best by median "
+        f"{SUCCESS} Tests compare fitness, each optimizer with the reference, {reference}, and with the best by median"
     )
     trials = [all_trials(folder, f"trials-{i}", problem, looks) for i, problem in drawable(here)]
     tables = [_table(problem, summary) for problem in here]
-    return Section(
-        "optimizers", "All optimizers at equal evaluations", [f"{how}median only.", Figures(trials), *tables]
-    )
+    return Section("optimizers", "All optimizers at equal evaluations", [f"{how} only.", Figures(trials), *tables])
 
 
 def at_other_budgets(results: Results) -> Section | None:
