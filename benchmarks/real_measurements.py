@@ -289,7 +289,7 @@ def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[M
     held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
     bars = [(step["step"], float(step["rmse"])) for step in steps]
     name = "".join(c for c in case.name if c.isalnum())
-    drawn, parameters = waterfall(folder, bars, held_out, {"output": one["unit"]}, name), _parameters(one)
+    drawn, parameters = waterfall(folder, bars, held_out, units={"output": one["unit"]}, name=name), _parameters(one)
     ties = [f"These records do not tell apart: {one['ties']}."] if one["ties"] else []
     advice = [one["advice"]] if one["advice"] else []
     blocks: list[Block] = [Paragraph(sentence(f"{case.device}: {case.known}"), "note"), one["headline"]]

@@ -138,7 +138,7 @@ def test_those_who_cannot_be_told_apart_are_named(results):
 
 
 def test_few_are_drawn_and_the_reference_is_among_them(results):
-    looks = choose(problems(results), "pso", ["pso", "mpso"], floors(results.study))
+    looks = choose(problems(results), "pso", ["pso", "mpso"], floor=floors(results.study))
     assert len(looks) <= SHOWN
     assert list(looks)[:2] == ["pso", "mpso"]
     assert {"random-search", problems(results)[0].winner} <= set(looks)

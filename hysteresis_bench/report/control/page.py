@@ -171,7 +171,9 @@ def _followed(folder: Path, reference: str, parts: Parts, names: list[str], unit
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Displacement", units, "output"))
         legend(axes, 4)
 
-    return picture(folder, f"tracking-{reference}", (4.6, 2.7), f"Tracking over time. {caption}", caption, draw)
+    return picture(
+        folder, f"tracking-{reference}", (4.6, 2.7), alt=f"Tracking over time. {caption}", caption=caption, draw=draw
+    )
 
 
 def _erred(folder: Path, reference: str, parts: Parts, names: list[str], units: Units) -> Picture:
@@ -188,7 +190,9 @@ def _erred(folder: Path, reference: str, parts: Parts, names: list[str], units: 
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Error", units, "output"))
         legend(axes, 3)
 
-    return picture(folder, f"error-{reference}", (4.6, 2.9), f"Tracking error over time. {caption}", caption, draw)
+    return picture(
+        folder, f"error-{reference}", (4.6, 2.9), alt=f"Tracking error over time. {caption}", caption=caption, draw=draw
+    )
 
 
 def _start(part: pd.DataFrame) -> pd.DataFrame:

@@ -19,7 +19,7 @@ from hysteresis_bench.report.shared.theme import Picture
 ROLES = {"fitted": "fitted", "held_out": "held out"}
 
 
-def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, more: str = "") -> Table:
+def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, *, more: str = "") -> Table:
     """Fitted and held out, before and after; noise : RMS, what the errors are divided by;  more : to be noted"""
     rows: list[list[str | Cell]] = []
     for role, words in ROLES.items():
@@ -44,19 +44,19 @@ def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, mo
     return Table("Errors before and after", header, rows, note)
 
 
-def step_by_step(folder: Path, found: Mapping[str, Any], units: Units, name: str = "waterfall") -> Picture:
+def step_by_step(folder: Path, found: Mapping[str, Any], units: Units, *, name: str = "waterfall") -> Picture:
     """The error from the bare model via each adopted effect to the noise."""
     ends = [(found[stage]["held_out"] or {}).get("rmse") for stage in ("before", "after")]
     steps = [(step["system"], step["rmse"]) for step in found["waterfall"]]
-    return waterfall(folder, steps, (ends[0], ends[1]), units, name)
+    return waterfall(folder, steps, (ends[0], ends[1]), units=units, name=name)
 
 
-def record_blocks(folder: Path, place: str, rows: pd.DataFrame, noise: float, units: Units) -> list[Block]:
+def record_blocks(folder: Path, place: str, rows: pd.DataFrame, *, noise: float, units: Units) -> list[Block]:
     """Heading, loop and residual of one record; place : what the figures' names have before the record's."""
     record, role = rows["record"].iloc[0], rows["role"].iloc[0]
     heading, name = f"{record} ({role})", f"{place}-{record}"
-    drawn = loops(folder, f"loop-{name}", rows, units, f"{heading}.")
-    left = residuals(folder, f"residual-{name}", rows, noise, units, f"{heading}.")
+    drawn = loops(folder, f"loop-{name}", rows, units=units, caption=f"{heading}.")
+    left = residuals(folder, f"residual-{name}", rows, noise=noise, units=units, caption=f"{heading}.")
     return [Heading(heading), Figures([drawn, left])]
 
 

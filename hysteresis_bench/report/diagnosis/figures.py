@@ -18,6 +18,7 @@ def waterfall(
     folder: Path,
     steps: Sequence[tuple[str, float]],
     held_out: tuple[float | None, float | None],
+    *,
     units: Units,
     name: str = "waterfall",
 ) -> Picture:
@@ -65,10 +66,10 @@ def waterfall(
         "takes away. Diamonds: error on what was not fitted, bare and final."
     )
     height = 1.25 + 0.36 * len(steps)
-    return picture(folder, name, (6.4, height), f"RMSE step by step: {steps_in_words}.", caption, draw)
+    return picture(folder, name, (6.4, height), alt=f"RMSE step by step: {steps_in_words}.", caption=caption, draw=draw)
 
 
-def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str) -> Picture:
+def loops(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> Picture:
     """Output over input of one record, measured, before and after side by side."""
 
     def draw(figure: Any) -> None:
@@ -81,10 +82,10 @@ def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: st
             legend(axes)
         figure.axes[0].set_ylabel(named("Output", units, "output"))
 
-    return picture(folder, name, (6.0, 3.0), f"Loop before and after. {caption}", caption, draw)
+    return picture(folder, name, (6.0, 3.0), alt=f"Loop before and after. {caption}", caption=caption, draw=draw)
 
 
-def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: Units, caption: str) -> Picture:
+def residuals(folder: Path, name: str, rows: pd.DataFrame, *, noise: float, units: Units, caption: str) -> Picture:
     """Measured minus simulated of one record, over time and over input, before and after; noise : RMS, shaded."""
 
     def draw(figure: Any) -> None:
@@ -100,4 +101,4 @@ def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: 
         legend(panels[0])
 
     shaded = f"{caption} Shaded: twice the noise to either side."
-    return picture(folder, name, (6.4, 2.6), f"Residual before and after. {caption}", shaded, draw)
+    return picture(folder, name, (6.4, 2.6), alt=f"Residual before and after. {caption}", caption=shaded, draw=draw)

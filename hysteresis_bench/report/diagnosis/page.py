@@ -52,7 +52,7 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
     offset = f" Both have the offset {found['common_offset']}." if found["common_offset"] else ""
     errors: list[Block] = [
         Figures([step_by_step(folder, found, units)]),
-        errors_table(found, found["floor"], units, offset),
+        errors_table(found, found["floor"], units, more=offset),
     ]
     yield Section("errors", "The error, before and after", errors)
     yield _records(folder, kept)
@@ -93,7 +93,7 @@ def _records(folder: Path, kept: KeptDiagnosis) -> Section:
     blocks: list[Block] = []
     shown = _shown([rows for _, rows in kept.responses.groupby("record", sort=False)])
     for index, rows in enumerate(shown, 1):
-        blocks += record_blocks(folder, str(index), rows, kept.diagnosis["floor"], kept.model["units"])
+        blocks += record_blocks(folder, str(index), rows, noise=kept.diagnosis["floor"], units=kept.model["units"])
     split = kept.diagnosis["split"]
     undrawn = len({*split["fitted"], *split["held_out"], *kept.responses["record"]}) - len(shown)
     if undrawn:

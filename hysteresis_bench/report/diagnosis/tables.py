@@ -73,7 +73,9 @@ def added_table(model: Mapping[str, Any], effects: Sequence[str]) -> Table | Non
     for effect in model["effects"]:
         if effect["effect"] in effects:
             found += [(f"{effect['effect']}.{name}", estimate) for name, estimate in effect["parameters"].items()]
-    rows = [estimate_cells(name, each["value"], each["standard_error"], each["unit"], digits=5) for name, each in found]
+    rows = [
+        estimate_cells(name, each["value"], each["standard_error"], unit=each["unit"], digits=5) for name, each in found
+    ]
     return Table("Parameters that came with the effects", ESTIMATE_HEADER, rows, ESTIMATE_NOTE) if rows else None
 
 

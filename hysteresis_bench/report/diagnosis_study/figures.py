@@ -11,7 +11,7 @@ from hysteresis_bench.report.shared.theme import Picture, picture
 
 
 def confusion_matrix(
-    folder: Path, name: str, counts: Mapping[tuple[str, str], int], rows: Sequence[str], columns: Sequence[str]
+    folder: Path, name: str, counts: Mapping[tuple[str, str], int], *, rows: Sequence[str], columns: Sequence[str]
 ) -> Picture:
     """How often each hidden effect (row) was claimed as each effect (column)."""
 
@@ -30,4 +30,4 @@ def confusion_matrix(
 
     size = (1.9 + 0.36 * len(columns), 1.6 + 0.32 * len(rows))
     caption = "Hidden against claimed, in cases. Blue: the right name. Orange: another name, tied ones included."
-    return picture(folder, name, size, "Confusion matrix; the table has the numbers.", caption, draw)
+    return picture(folder, name, size, alt="Confusion matrix; the table has the numbers.", caption=caption, draw=draw)

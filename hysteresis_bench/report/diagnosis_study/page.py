@@ -122,7 +122,7 @@ def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> list[Block]:
     columns = sorted(table.columns, key=lambda effect: (effect == NOTHING, effect))
     counts = {(row, column): int(table.at[row, column]) for row in rows for column in columns if table.at[row, column]}
     heading = "Where the hysteresis is the model's own" if name == "known" else "On the virtual rigs"
-    drawn = confusion_matrix(folder, f"confusion-{name}", counts, rows, columns)
+    drawn = confusion_matrix(folder, f"confusion-{name}", counts, rows=rows, columns=columns)
     lines: list[list[str | Cell]] = [
         [row, *(_count(row, column, counts.get((row, column), 0)) for column in columns)] for row in rows
     ]

@@ -101,7 +101,7 @@ def _left_out(responses: pd.DataFrame) -> str:
 def _parameters(parameters: Sequence[Mapping[str, Any]]) -> Table:
     rows = [
         [
-            *estimate_cells(each["name"], each["value"], each.get("standard_error"), each.get("unit")),
+            *estimate_cells(each["name"], each["value"], each.get("standard_error"), unit=each.get("unit")),
             Cell("at its bound", "bad") if each.get("at_bound") else "",
         ]
         for each in parameters
@@ -129,9 +129,13 @@ def _pictures(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame) -> 
         colour = SERIES[0] if role == "fitted" else SERIES[1]
         caption = f"{record} ({role})."
         if rows["output"].notna().any():
-            loops.append(loop(folder, f"loop-{index + 1}-{record}", {fit["model"]: (rows, colour)}, units, caption))
+            loops.append(
+                loop(folder, f"loop-{index + 1}-{record}", {fit["model"]: (rows, colour)}, units=units, caption=caption)
+            )
             minus = f"{caption} Simulated minus measured."
-            residuals.append(errors(folder, f"residual-{index + 1}-{record}", {role: (rows, colour)}, units, minus))
+            residuals.append(
+                errors(folder, f"residual-{index + 1}-{record}", {role: (rows, colour)}, units=units, caption=minus)
+            )
     return loops, residuals
 
 

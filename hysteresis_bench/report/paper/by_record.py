@@ -14,7 +14,7 @@ from hysteresis_bench.report.shared.text import listed, number, percent
 LARGEST = "max_error"
 
 
-def by_record(problem: str, responses: pd.DataFrame, labels: Sequence[str], published: Published) -> Table | None:
+def by_record(problem: str, responses: pd.DataFrame, labels: Sequence[str], *, published: Published) -> Table | None:
     """Errors of the best trials of `labels`, a row a record; None where there is only one record.
 
     responses : of this problem. A largest error that the paper prints is named beside ours.

@@ -29,7 +29,7 @@ def floors(study: Study) -> list[str]:
 
 
 def choose(
-    problems: Sequence[Problem], reference: str, papers: Sequence[str], floor: Sequence[str] = ()
+    problems: Sequence[Problem], reference: str, papers: Sequence[str], *, floor: Sequence[str] = ()
 ) -> dict[str, Look]:
     """The optimizers that are drawn, with their look.
 
@@ -49,7 +49,7 @@ def choose(
     return looks | {label: Look(MUTED, ":") for label in dotted}
 
 
-def in_words(looks: Mapping[str, Look], reference: str, papers: Sequence[str], floor: Sequence[str]) -> str:
+def in_words(looks: Mapping[str, Look], reference: str, papers: Sequence[str], *, floor: Sequence[str]) -> str:
     """Who has a colour, and why."""
     ours = [label for label in papers if label in looks and label != reference]
     dotted = [label for label in floor if label in looks]

@@ -16,7 +16,7 @@ MOST = 8
 """Trials shown: more lines than this cannot be followed."""
 
 
-def parameters_by_iteration(results: Results, problem: str, label: str, folder: Path, name: str) -> Picture | None:
+def parameters_by_iteration(results: Results, problem: str, label: str, *, folder: Path, name: str) -> Picture | None:
     """Fitness and parameters of the best so far, a panel each, a line a trial; None where there is no trace."""
     traces = [trace for (where, who, _), trace in sorted(results.traces.items()) if (where, who) == (problem, label)]
     traces = [trace for trace in traces[:MOST] if trace.evaluations.size]
@@ -50,4 +50,6 @@ def parameters_by_iteration(results: Results, problem: str, label: str, folder: 
     iteration = f"; an iteration is {whole(cost)} evaluations" if cost else ""
     caption = f"{problem}: fitness and parameters of the best so far by {label}, a colour a trial{iteration}. Where "
     caption += "fitness ends alike and a parameter does not, the data do not tell that parameter."
-    return picture(folder, name, (7.4, 0.5 + 1.45 * height), f"Search by {label}. {caption}", caption, draw)
+    return picture(
+        folder, name, (7.4, 0.5 + 1.45 * height), alt=f"Search by {label}. {caption}", caption=caption, draw=draw
+    )

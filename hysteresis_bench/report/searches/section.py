@@ -16,7 +16,7 @@ from hysteresis_bench.study.results import Results
 
 
 def section(
-    results: Results, problems: Sequence[Problem], papers: Sequence[str], looks: Mapping[str, Look], folder: Path
+    results: Results, problems: Sequence[Problem], papers: Sequence[str], *, looks: Mapping[str, Look], folder: Path
 ) -> Section | None:
     """papers : the optimizers of the paper, whose parameters are drawn, too;  None where every trial failed."""
     drawn = drawable(problems)
@@ -24,12 +24,12 @@ def section(
         return None
     budget, reference = results.study.budget, problems[0].reference
     blocks: list[Block] = [
-        in_words(looks, reference, papers, floors(results.study)),
-        Figures([convergence(folder, f"convergence-{i}", problem, looks, budget) for i, problem in drawn]),
-        Figures([runtime(folder, f"runtime-{i}", problem, looks, budget) for i, problem in drawn]),
+        in_words(looks, reference, papers, floor=floors(results.study)),
+        Figures([convergence(folder, f"convergence-{i}", problem, looks=looks, budget=budget) for i, problem in drawn]),
+        Figures([runtime(folder, f"runtime-{i}", problem, looks=looks, budget=budget) for i, problem in drawn]),
     ]
     moved = [
-        parameters_by_iteration(results, problem.name, label, folder, f"parameters-{i}-{j}")
+        parameters_by_iteration(results, problem.name, label, folder=folder, name=f"parameters-{i}-{j}")
         for i, problem in enumerate(problems, 1)
         for j, label in enumerate(each for each in papers if each != problem.reference)
     ]

@@ -111,7 +111,7 @@ Block = str | Table | Paragraph | Heading | Bullets | Terms | Figures | Details
 
 
 def estimate_cells(
-    name: str, value: float, error: float | None, unit: str | None, *, digits: int = 6
+    name: str, value: float, error: float | None, *, unit: str | None, digits: int = 6
 ) -> list[str | Cell]:
     """The cells of a fitted parameter: name, value, standard error, that as a share of the value, unit.
 

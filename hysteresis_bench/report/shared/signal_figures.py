@@ -20,7 +20,7 @@ Parts = Mapping[str, tuple[pd.DataFrame, str]]
 """Who simulated -> the rows of one record, and a colour."""
 
 
-def drive(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str) -> Picture:
+def drive(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> Picture:
     """Input and measured output of one record over time."""
 
     def draw(figure: Any) -> None:
@@ -32,10 +32,10 @@ def drive(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: st
         lower.set_xlabel(named("Time", units, "time"))
         figure.align_ylabels()
 
-    return picture(folder, name, (4.2, 3.2), f"Input and output over time. {caption}", caption, draw)
+    return picture(folder, name, (4.2, 3.2), alt=f"Input and output over time. {caption}", caption=caption, draw=draw)
 
 
-def loop(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> Picture:
+def loop(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:
     """Output over input of one record, measured and simulated."""
     measured, _ = next(iter(parts.values()))
 
@@ -47,11 +47,13 @@ def loop(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> P
         axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
         legend(axes)
 
-    return picture(folder, name, (3.4, 3.1), f"Hysteresis loop, measured and simulated. {caption}", caption, draw)
+    return picture(
+        folder, name, (3.4, 3.1), alt=f"Hysteresis loop, measured and simulated. {caption}", caption=caption, draw=draw
+    )
 
 
 def measured_loops(
-    folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str, most: int = len(SERIES)
+    folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str, most: int = len(SERIES)
 ) -> Picture | None:
     """The measured loops of all records in one figure; None where there is only one record, or too many."""
     records = list(rows.groupby(["record", "role"], sort=False))
@@ -66,10 +68,12 @@ def measured_loops(
         axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
         legend(axes)
 
-    return picture(folder, name, (3.4, 3.6), f"Measured hysteresis loops of all records. {caption}", caption, draw)
+    return picture(
+        folder, name, (3.4, 3.6), alt=f"Measured hysteresis loops of all records. {caption}", caption=caption, draw=draw
+    )
 
 
-def errors(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> Picture:
+def errors(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:
     """Simulated minus measured over time, per cent of the largest measured |output|."""
 
     def draw(figure: Any) -> None:
@@ -80,7 +84,7 @@ def errors(folder: Path, name: str, parts: Parts, units: Units, caption: str) ->
         axes.set(xlabel=named("Time", units, "time"), ylabel="Error (% of largest output)")
         legend(axes, 3)
 
-    return picture(folder, name, (4.6, 2.7), f"Error over time. {caption}", caption, draw)
+    return picture(folder, name, (4.6, 2.7), alt=f"Error over time. {caption}", caption=caption, draw=draw)
 
 
 def relative_error(rows: pd.DataFrame) -> Array:

@@ -69,7 +69,7 @@ class Picture:
 
 
 def picture(
-    folder: Path, name: str, size: tuple[float, float], alt: str, caption: str, draw: Callable[[Any], None]
+    folder: Path, name: str, size: tuple[float, float], *, alt: str, caption: str, draw: Callable[[Any], None]
 ) -> Picture:
     """Draw on a figure of `size` inches, write figures/NAME.svg into the folder, and return both forms.
 
@@ -112,7 +112,7 @@ def legend(axes: Any, columns: int = 2) -> None:
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, borderaxespad=0, handlelength=1.4)
 
 
-def spread_labels(positions: Sequence[float], gap: float, low: float = 0.0, high: float = 1.0) -> list[float]:
+def spread_labels(positions: Sequence[float], gap: float, *, low: float = 0.0, high: float = 1.0) -> list[float]:
     """Positions of labels on an axis, in axes fractions, moved apart to at least `gap` and kept in order."""
     order = sorted(range(len(positions)), key=lambda i: positions[i])
     placed = [min(max(positions[i], low), high) for i in order]

@@ -17,7 +17,7 @@ CYCLES = 3
 
 
 def stage_figures(
-    folder: Path, number: int, responses: pd.DataFrame, units: Units
+    folder: Path, number: int, responses: pd.DataFrame, *, units: Units
 ) -> tuple[list[Picture], list[Picture]]:
     """Fits over time and loops, one of each a record. responses : of the stage;  number : in the names of figures"""
     fits: list[Picture] = []
@@ -33,7 +33,7 @@ def stage_figures(
         caption = f"{record}: fit above, simulated minus measured below{shown}."
         fits.append(_fit(folder, f"stage-{number}-fit-{j}", parts, units, caption))
         caption = f"{record}: hysteresis loops, measured and simulated{shown}."
-        loops.append(loop(folder, f"stage-{number}-loop-{j}", parts, units, caption))
+        loops.append(loop(folder, f"stage-{number}-loop-{j}", parts, units=units, caption=caption))
     return fits, loops
 
 
@@ -54,7 +54,9 @@ def _fit(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> P
         legend(upper, 3)
         figure.align_ylabels()
 
-    return picture(folder, name, (4.6, 3.6), f"Measured and simulated output. {caption}", caption, draw)
+    return picture(
+        folder, name, (4.6, 3.6), alt=f"Measured and simulated output. {caption}", caption=caption, draw=draw
+    )
 
 
 def _window(rows: pd.DataFrame) -> pd.DataFrame:

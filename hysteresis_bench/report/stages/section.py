@@ -57,14 +57,14 @@ def _view(i: int, spec: StageSpec, results: Results, published: Published, folde
     checked = [table for table in published.tables.values() if "record" in table.columns] if spec.check else []
     tables = [linear_section(spec, rows, published if spec.check else Published())]
     if spec.check:
-        tables += [check(spec, rows, checked, quantity, unit) for quantity in (LARGEST, RMSE)]
+        tables += [check(spec, rows, checked, quantity=quantity, unit=unit) for quantity in (LARGEST, RMSE)]
     if spec.check and spec.beside:
         tables.append(ways(spec, rows, unit))
     if spec.control:
-        tables.append(tracking(spec, rows, published, unit))
+        tables.append(tracking(spec, rows, published, unit=unit))
     drawn = results.responses
     mine = drawn if drawn.empty else drawn[drawn["problem"] == spec.name]
-    fits, loops = stage_figures(folder, i, mine, units)
+    fits, loops = stage_figures(folder, i, mine, units=units)
     return StageView(spec.name, list(_sentences(spec, rows, checked)), tables, fits, loops)
 
 
@@ -81,7 +81,7 @@ def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> I
         return
     first, second = spec.optimizers[:2]
     for quantity, column in ((LARGEST, "error"), (RMSE, "rmse")):
-        ours = [mean_error(spec, rows, label, STAGED, quantity) for label in (first, second)]
+        ours = [mean_error(spec, rows, label, way=STAGED, quantity=quantity) for label in (first, second)]
         if None in ours:
             continue
         said = f"Mean {quantity} over the {len(spec.check)} signals: {_less(first, second, ours)}"
@@ -99,7 +99,7 @@ def _which_way(spec: StageSpec, rows: pd.DataFrame) -> Iterator[str]:
     means = {}
     for way in (STAGED, spec.beside or ""):
         labels = rows[rows["way"] == way]["optimizer"].drop_duplicates()
-        means[way] = mean_error(spec, rows, labels.iloc[-1], way, RMSE) if len(labels) else None
+        means[way] = mean_error(spec, rows, labels.iloc[-1], way=way, quantity=RMSE) if len(labels) else None
     staged, together = means.values()
     if staged and together:
         better = "lowers" if together < staged else "raises"

@@ -68,7 +68,7 @@ def _derived(spec: StageSpec, values: Mapping[str, float]) -> dict[str, str]:
     }
 
 
-def check(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed], quantity: str, unit: str) -> Table:
+def check(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed], *, quantity: str, unit: str) -> Table:
     """Errors on the check's records, published beside ours, with the mean."""
     column = {LARGEST: "error", RMSE: "rmse"}[quantity]
     header, sides = ["Signal"], []
@@ -78,7 +78,7 @@ def check(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed], quantity:
             header.append(f"{label}, published")
             sides.append(dict(zip(map(str, printed["record"]), map(float, printed[f"{label}_{column}"]), strict=True)))
         header.append(f"{label}, ours" if printed else label)
-        ours = {record: error_of(rows, label, STAGED, quantity, record) for record in spec.check}
+        ours = {record: error_of(rows, label, STAGED, quantity=quantity, name=record) for record in spec.check}
         sides.append({record: value for record, value in ours.items() if value is not None})
     cells: list[list[str | Cell]] = [
         [record, *(number(side.get(record)) for side in sides)] for record in (*spec.fitted, *spec.check)
@@ -97,13 +97,15 @@ def ways(spec: StageSpec, rows: pd.DataFrame, unit: str) -> Table:
     for way in (STAGED, spec.beside or ""):
         for label in labels_of(rows, way):
             header.append(f"{label}, {way}")
-            every = {record: error_of(rows, label, way, RMSE, record) for record in (*spec.fitted, *spec.check)}
-            sides.append(every | {"mean of the check": mean_error(spec, rows, label, way, RMSE)})
+            every = {
+                record: error_of(rows, label, way, quantity=RMSE, name=record) for record in (*spec.fitted, *spec.check)
+            }
+            sides.append(every | {"mean of the check": mean_error(spec, rows, label, way=way, quantity=RMSE)})
     cells = [[name, *(number(side[name]) for side in sides)] for name in (sides[0] if sides else {})]
     return Table(f"{spec.name}: staged against {spec.beside}, {named(RMSE, {'output': unit}, 'output')}", header, cells)
 
 
-def tracking(spec: StageSpec, rows: pd.DataFrame, published: Published, unit: str) -> Table:
+def tracking(spec: StageSpec, rows: pd.DataFrame, published: Published, *, unit: str) -> Table:
     """Closed loop on the rig, every controller on every reference; the paper's beside its own controller."""
     table = next((each for each in published.tables.values() if "reference" in each.columns), None)
     printed, papers = (table.columns, table.controller) if table else ({}, "")

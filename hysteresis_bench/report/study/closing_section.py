@@ -74,10 +74,10 @@ def _found(closing: Closing, folder: Path) -> Iterator[Block]:
         yield "Before you believe it:"
         yield Bullets(caveats)
     yield errors_table(found, noise, units)
-    yield Figures([step_by_step(folder, found, units, f"{PLACE}-waterfall")])
+    yield Figures([step_by_step(folder, found, units, name=f"{PLACE}-waterfall")])
     held_out = closing.responses[closing.responses["role"] == "held-out"]
     for i, (_, rows) in enumerate(held_out.groupby("record", sort=False), 1):
-        yield from record_blocks(folder, f"{PLACE}-{i}", rows, noise, units)
+        yield from record_blocks(folder, f"{PLACE}-{i}", rows, noise=noise, units=units)
     yield from description(found)
     if found["advice"]:
         yield found["advice"]

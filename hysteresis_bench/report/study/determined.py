@@ -79,4 +79,6 @@ def _profile(folder: Path, name: str, problem: str, profile: Mapping[str, Any], 
 
     caption = f"{problem}: how much worse the best fit becomes with {profile['name']} held; below the dotted line "
     caption += "a value is within the 95 % interval, if residuals are uncorrelated."
-    return picture(folder, name, (3.4, 2.6), f"Profile likelihood of {profile['name']}.", caption, draw)
+    return picture(
+        folder, name, (3.4, 2.6), alt=f"Profile likelihood of {profile['name']}.", caption=caption, draw=draw
+    )

@@ -17,7 +17,9 @@ from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.study.results import Results
 
 
-def section(results: Results, here: Sequence[Problem], summary: pd.DataFrame, published: Published) -> Section | None:
+def section(
+    results: Results, here: Sequence[Problem], summary: pd.DataFrame, *, published: Published
+) -> Section | None:
     """None without trials."""
     how = (
         "Held-out records were not seen by any search. The best trial is the one with the lowest fitness on the fitted "
@@ -35,7 +37,7 @@ def _by_record(results: Results, here: Sequence[Problem], published: Published) 
     for problem in here:
         rows = results.responses[results.responses["problem"] == problem.name]
         labels = shown(problem, published.optimizers, rows["optimizer"])
-        found.append(by_record(problem.name, rows, labels, published))
+        found.append(by_record(problem.name, rows, labels, published=published))
     return [table for table in found if table]
 
 

@@ -31,13 +31,13 @@ from hysteresis_bench.study.results import Results
 
 
 def at_equal_evaluations(
-    here: Sequence[Problem], summary: pd.DataFrame, reference: str, looks: Mapping[str, Look], folder: Path
+    here: Sequence[Problem], summary: pd.DataFrame, reference: str, *, looks: Mapping[str, Look], folder: Path
 ) -> Section:
     """Every trial in a figure, every optimizer in a table."""
     how = (
         f"{SUCCESS} Tests compare fitness, each optimizer with the reference, {reference}, and with the best by median"
     )
-    trials = [all_trials(folder, f"trials-{i}", problem, looks) for i, problem in drawable(here)]
+    trials = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in drawable(here)]
     tables = [_table(problem, summary) for problem in here]
     return Section("optimizers", "All optimizers at equal evaluations", [f"{how} only.", Figures(trials), *tables])
 

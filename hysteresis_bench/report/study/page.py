@@ -36,18 +36,18 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     here, everybody = problems(results), problems(results, any_budget=True)
     judged = claims.judge(published, everybody)
     reference = here[0].reference if here else results.study.reference
-    looks = choose(here, reference, published.optimizers, floors(results.study))
+    looks = choose(here, reference, published.optimizers, floor=floors(results.study))
 
     def sections() -> Iterator[Section | None]:
         yield run.section(results, here)
         yield beside.section(published, results, everybody)
         yield claims.section(judged)
-        yield optimizers.at_equal_evaluations(here, summary, reference, looks, folder)
+        yield optimizers.at_equal_evaluations(here, summary, reference, looks=looks, folder=folder)
         yield optimizers.at_other_budgets(results)
         yield optimizers.at_the_papers_iterations(results, here, published.iterations)
-        yield searches.section(results, here, published.optimizers, looks, folder)
-        yield signals.section(results, here, published.optimizers, looks, folder)
-        yield held_out.section(results, here, summary, published)
+        yield searches.section(results, here, published.optimizers, looks=looks, folder=folder)
+        yield signals.section(results, here, published.optimizers, looks=looks, folder=folder)
+        yield held_out.section(results, here, summary, published=published)
         yield stages.section(results, published, folder)
         yield determined.section(results, folder)
         yield audit.section(audit.audit(published))

@@ -18,7 +18,7 @@ from hysteresis_bench.study.results import Results
 
 
 def section(
-    results: Results, here: Sequence[Problem], papers: Sequence[str], looks: Mapping[str, Look], folder: Path
+    results: Results, here: Sequence[Problem], papers: Sequence[str], *, looks: Mapping[str, Look], folder: Path
 ) -> Section | None:
     """None where no response was kept."""
     if results.responses.empty:
@@ -37,8 +37,10 @@ def section(
                 parts[label] = (part[part["optimizer"] == label], looks[label].colour if label in looks else INK)
                 if role == "fitted" or label == problem.winner:
                     one, caption = {label: parts[label]}, f"{where}: best trial of {label}."
-                    loops.append(loop(folder, f"loop-{i}-{j}-{k}", one, units, caption))
-            residuals.append(errors(folder, f"errors-{i}-{j}", parts, units, f"{where}: simulated minus measured."))
+                    loops.append(loop(folder, f"loop-{i}-{j}-{k}", one, units=units, caption=caption))
+            residuals.append(
+                errors(folder, f"errors-{i}-{j}", parts, units=units, caption=f"{where}: simulated minus measured.")
+            )
     if not drives:
         return None
     blocks: list[Block] = [
@@ -68,7 +70,7 @@ def _drives(
         if not any(one.equals(other) for other in drawn):
             drawn.append(one)
             new = True
-            yield drive(folder, f"drive-{number}-{j}", one, units, f"{record} ({role}).")
+            yield drive(folder, f"drive-{number}-{j}", one, units=units, caption=f"{record} ({role}).")
     caption = f"{problem}: measured, all records."
-    if new and (together := measured_loops(folder, f"measured-{number}", mine, units, caption)):
+    if new and (together := measured_loops(folder, f"measured-{number}", mine, units=units, caption=caption)):
         yield together
