@@ -14,8 +14,8 @@ from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
 from hysteresis_bench.errors import nearest
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
-FLOOR = "random-search"
-"""The optimizer that learns nothing from what it evaluates: a search that does not beat it is none."""
+RANDOM_SEARCH = "random-search"
+"""What every search must beat: the yardstick of a study's figures."""
 
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
 

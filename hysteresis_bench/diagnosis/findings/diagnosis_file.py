@@ -1,7 +1,7 @@
 """A diagnosis as files: diagnosis.json, schema 1, the model.json that `predict` reads, and responses.csv.
 
 They hold all that a page tells. Keys were added to the schema since; what an older file lacks is filled in when it
-is read, as far as it can be told from the rest.
+is read, as far as it follows from the rest.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ ADOPTED, TIED, PARTIAL, NEEDLESS = "adopted", "tied", "too small a part", "not n
 
 @dataclass(frozen=True, eq=False)
 class KeptDiagnosis:
-    """A diagnosis as its files tell it.
+    """A diagnosis as its files hold it.
 
     diagnosis : the content of diagnosis.json, with every key of today;  model : of model.json
     responses : record, role, time, input, output, before, after over the scored samples, thinned to DRAWN a record

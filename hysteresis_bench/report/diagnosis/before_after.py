@@ -13,7 +13,7 @@ import pandas as pd
 
 from hysteresis_bench.report.diagnosis.figures import loops, residuals, waterfall
 from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Heading, Table
-from hysteresis_bench.report.shared.text import NONE, Units, number, percent, rmse_in, sentence
+from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent, sentence
 from hysteresis_bench.report.shared.theme import Picture
 
 ROLES = {"fitted": "fitted", "held_out": "held out"}
@@ -27,19 +27,26 @@ def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, *,
         if first is None or last is None:
             continue
         for name, errors in (("before", first), ("after", last)):
-            rmse = errors["rmse"]
+            error = errors["rmse"]
             rows.append(
                 [
                     f"{words}, {name}",
-                    Cell(number(rmse), "", name == "after"),
+                    Cell(number(error), "", name == "after"),
                     percent(errors["relative_rms"]),
                     percent(errors["max_error"]),
-                    NONE if name == "before" else number(_ratio(first["rmse"], rmse), 3, never=NONE),
-                    number(_ratio(rmse, noise), 3, never=NONE),
+                    NONE if name == "before" else number(_ratio(first["rmse"], error), 3, never=NONE),
+                    number(_ratio(error, noise), 3, never=NONE),
                 ]
             )
     rows.append(["noise", number(noise), *4 * [NONE]])
-    header = ["Records", rmse_in(units), "Relative RMS", "Largest error", "Times smaller", "Times the noise"]
+    header = [
+        "Records",
+        named("RMSE", units, "output"),
+        "Relative RMS",
+        "Largest error",
+        "Times smaller",
+        "Times the noise",
+    ]
     note = f"Relative to the largest |output − offset| measured.{more} {sentence(found['noise']['words'])}"
     return Table("Errors before and after", header, rows, note)
 

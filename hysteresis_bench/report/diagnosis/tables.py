@@ -12,10 +12,10 @@ from hysteresis_bench.report.shared.text import (
     NONE,
     Units,
     listed,
+    named,
     number,
     percent,
     probability,
-    rmse_in,
     sentence,
 )
 
@@ -24,12 +24,13 @@ TONES = {ADOPTED: "good", TIED: "bad"}
 
 def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units) -> Table:
     """Every effect that the data and the model can show."""
+    rmse = named("RMSE", units, "output")
     return Table(
         "Effects considered",
         [
             "Effect",
             "Verdict",
-            f"{rmse_in(units)}, blocks left out",
+            f"{rmse}, blocks left out",
             "p",
             "Clear by",
             "Explains",

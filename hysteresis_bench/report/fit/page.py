@@ -21,7 +21,7 @@ from hysteresis_bench.report.shared.blocks import (
 )
 from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.shared.signal_figures import errors, loop
-from hysteresis_bench.report.shared.text import NONE, Units, number, percent, rmse_in
+from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent
 from hysteresis_bench.report.shared.theme import SERIES, Picture
 
 FILE = "fit.html"
@@ -115,7 +115,7 @@ def _errors(records: Sequence[Mapping[str, Any]], units: Units) -> Table:
          percent(record["max_error"])]
         for record in records
     ]  # fmt: skip
-    header = ["Record", "Role", rmse_in(units), "Relative RMS", "Largest error"]
+    header = ["Record", "Role", named("RMSE", units, "output"), "Relative RMS", "Largest error"]
     return Table("Errors of each record", header, rows, note="Relative to the largest |output − offset| measured.")
 
 

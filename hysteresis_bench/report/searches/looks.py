@@ -25,7 +25,7 @@ class Look:
 
 def floors(study: Study) -> list[str]:
     """Labels of the optimizers that everybody must beat, as they learn nothing from what they evaluate."""
-    return [spec.name for spec in study.optimizer if spec.plugin == registry.FLOOR]
+    return [spec.name for spec in study.optimizer if spec.plugin == registry.RANDOM_SEARCH]
 
 
 def choose(

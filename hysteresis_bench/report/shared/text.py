@@ -86,15 +86,9 @@ def sentence(words: str) -> str:
 
 
 def named(quantity: str, units: Units, key: str) -> str:
-    """An axis label with its unit, where it is known: `Input (°C)`."""
+    """A quantity with its unit, where it is known: `Input (°C)`. key : time, input or output"""
     unit = {"degC": "°C", "deg": "°", "um": "μm"}.get(units.get(key, ""), units.get(key, ""))
     return f"{quantity} ({unit})" if unit not in ("", "1") else quantity
-
-
-def rmse_in(units: Units) -> str:
-    """RMSE (um)"""
-    unit = units.get("output", "1")
-    return f"RMSE ({unit})" if unit != "1" else "RMSE"
 
 
 def unit_cell(unit: str | None) -> str:

@@ -29,7 +29,7 @@ def in_words(trials: pd.DataFrame, problems: Sequence[Problem]) -> str:
     fate = "none failed" if failed == 0 else f"{failed} failed and rank as infinitely bad"
     return (
         f"{len(trials)} trials: {len(labels)} optimizers on {len(problems)} problem{'s' * (len(problems) != 1)}, "
-        f"{least} trials that all of them have; {fate}."
+        f"{least} trial{'s' * (least != 1)} that all of them have; {fate}."
     )
 
 
