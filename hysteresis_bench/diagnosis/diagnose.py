@@ -25,7 +25,6 @@ from hysteresis_bench.diagnosis.findings.candidates import (
     ties_of,
     waterfall_of,
 )
-from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
 from hysteresis_bench.diagnosis.findings.description import accepted
 from hysteresis_bench.diagnosis.findings.result import Diagnosis, Stage, Verdict
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
@@ -34,18 +33,18 @@ from hysteresis_bench.diagnosis.findings.words import carries_over, headline, wa
 from hysteresis_bench.diagnosis.preparation import passes_to_close, thinned, with_held_out
 from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
 from hysteresis_bench.diagnosis.search.selection import Selection, with_simplest_offset
-from hysteresis_bench.diagnosis.search.systems import OFFSETS, OUTER, Stack
+from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.diagnosis.search.without_hysteresis import without_hysteresis
 from hysteresis_bench.diagnosis.search.workers import Crew
+from hysteresis_bench.diagnosis.threads import single_threaded
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.fitting import fitted_model
+from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.identifiability import analyse
 from hysteresis_bench.fit.least_squares import split
-from hysteresis_bench.fit.model_file import FittedModel, Preparation
+from hysteresis_bench.fit.model_file import FittedModel, Preparation, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.settling import gap_after, not_closed, open_loops
-from hysteresis_bench.fit.threads import single_threaded
+from hysteresis_bench.registry import COMMON_OFFSET, DESCRIPTION, OFFSETS, RECORD_OFFSET
 from hysteresis_bench.signals import Dataset, Record
 
 FOLLOWS = 0.5
@@ -105,7 +104,7 @@ def diagnose(
     possible, impossible = bench.stack.candidates()
     with Crew(bench, jobs or min(4, os.cpu_count() or 1)) as crew:
         selection = Selection(bench, crew, floor, possible)
-        base = bench.bare(frozenset({"record-offset"}))
+        base = bench.bare(frozenset({RECORD_OFFSET}))
         found = selection.run(base)
         quieter = pooled_noise(without_hum(full, found))
         if quieter.floor < QUIETER * loud.floor:  # a fast hum had passed for noise
@@ -120,9 +119,9 @@ def diagnose(
         candidates = candidate_rows(selection, found, impossible, ties)
         order = in_order(selection, base, found)
     offset = next((name for name in OFFSETS if name in final.names), "")
-    adopted = (*(name for name, _ in order), *(["bias"] if offset == "bias" else []))
+    adopted = (*(name for name, _ in order), *([COMMON_OFFSET] if offset == COMMON_OFFSET else []))
     # where more than an offset is missing, before has the offset too: the gain is the effects' own
-    nuisance = frozenset(OFFSETS if order else ["record-offset"]) & final.names
+    nuisance = frozenset(OFFSETS if order else [RECORD_OFFSET]) & final.names
     whole, thin = (replace(one, stack=replace(one.stack, fixed=fixed)) for one in (full, bench))
     bare = thin.bare(nuisance)
     if final.names == nuisance and final.rmse < bare.rmse:
@@ -162,7 +161,7 @@ def diagnose(
         _advice(bench, found, rivals, ready.fitted, floor, ties),
         remembers,
         equation,
-        _model(after, dataset, ready, model, settings or {}, preparation),
+        _model(after, ready, model, settings or {}, preparation),
         _responses(ready, before, after),
         {"fitted": [r.name for r in ready.fitted], "held_out": [r.name for r in ready.held_out], "how": how},
         told,
@@ -192,7 +191,8 @@ def _check(dataset: Dataset, model: str, settings: Mapping[str, Any], effects: S
 
 def _follows(bench: Bench, trial: Trial) -> bool:
     """Does the response to the input, without what is merely added to it, explain the output?"""
-    names = trial.names - (set(OUTER) - {"record-offset"})
+    stack = bench.stack
+    names = frozenset(n for n in trial.names if n == RECORD_OFFSET or stack.effect(n).acts != "added")
     answering, own = bench.fitted(replace(trial, names=names))
     whole, every = bench.fitted(trial)
     left = explained = 0.0
@@ -256,16 +256,19 @@ def _advice(
 
 def _model(
     stage: Stage,
-    dataset: Dataset,
     ready: Dataset,
     model: str,
     settings: Mapping[str, Any],
     preparation: Preparation,
 ) -> FittedModel:
-    errors = _standard_errors(stage.problem, stage.values)
-    named = Dataset(ready.records, ready.held_out_names, dataset.hidden)
     return fitted_model(
-        stage.problem, stage.values, errors, named, ready, model, settings=settings, preparation=preparation
+        stage.problem,
+        stage.values,
+        _standard_errors(stage.problem, stage.values),
+        dataset=ready,
+        model=model,
+        settings=settings,
+        preparation=preparation,
     )
 
 
@@ -277,22 +280,6 @@ def _standard_errors(problem: Problem, values: Array) -> Array:
 
 
 def _responses(ready: Dataset, before: Stage, after: Stage) -> pd.DataFrame:
-    parts = []
-    for record in ready.records:
-        simulated = [
-            stage.problem.system.respond(record, stage.values[:, None])[record.scored, 0] for stage in (before, after)
-        ]
-        parts.append(
-            pd.DataFrame(
-                {
-                    "record": record.name,
-                    "role": "held-out" if record.name in ready.held_out_names else "fitted",
-                    "time": record.time[record.scored],
-                    "input": record.input[record.scored],
-                    "output": record.measured,
-                    "before": simulated[0],
-                    "after": simulated[1],
-                }
-            )
-        )
-    return pd.concat(parts, ignore_index=True)
+    stages = {"before": before, "after": after}
+    responses = {name: simulated(stage.problem.system, ready.records, stage.values) for name, stage in stages.items()}
+    return response_table(ready, responses)

@@ -13,6 +13,7 @@ from hysteresis_bench.diagnosis.evidence.noise import fast_noise
 from hysteresis_bench.diagnosis.search.hypotheses import Bench
 from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
+from hysteresis_bench.registry import RECORD_OFFSET
 from hysteresis_bench.signals import Dataset, Record
 
 MOST = 4000
@@ -38,7 +39,7 @@ def passes_to_close(
     while True:
         records = tuple(record.settled(passes) for record in dataset.fitted)
         bench = Bench(Stack(model, thinned(records), tuple(effects), bounds, fixed), seed)
-        bare = bench.bare(frozenset({"record-offset"}))
+        bare = bench.bare(frozenset({RECORD_OFFSET}))
         system, values = bench.fitted(bare)
         if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
             return passes

@@ -6,6 +6,7 @@ import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ import pandas as pd
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.study.closing_files import Closing, read_closing
+from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import Study, check_study
 
@@ -53,6 +54,14 @@ class Results:
     identifiability: Mapping[str, Any]
     stages: pd.DataFrame
     closing: Closing | None = None
+
+    def _repr_html_(self) -> str:
+        """For a notebook: by problem and optimizer, the trials, how many have a result, and the median error."""
+        rows = self.trials.assign(finished=self.trials["status"].isin(FINISHED))
+        table = rows.groupby(["problem", "optimizer"], sort=False).agg(
+            trials=("trial", "size"), finished=("finished", "sum"), median_relative_rms=("relative_rms", "median")
+        )
+        return f"<p>{escape(self.study.title)}</p>{table.to_html(float_format='%.4g')}"
 
 
 def read_results(folder: Path) -> Results:

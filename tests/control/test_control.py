@@ -42,7 +42,8 @@ def model(name="hammerstein", effects=(), preparation=None, **changed):
 class StandIn:
     """A plant that is nearly the model: another loop height, a stiffer spring, a noisy and quantised sensor."""
 
-    voltage_limit, noise, resolution = 5.0, 0.003, 0.003
+    input_limit, noise, resolution = 5.0, 0.003, 0.003
+    noise_floor = np.hypot(noise, resolution / np.sqrt(12.0))
 
     def __init__(self, alpha=1.2 * PUBLISHED["alpha"], stiffness=1.1 * LINEAR["k_over_m"]):
         truth = model(alpha=alpha, k_over_m=stiffness)
@@ -126,7 +127,7 @@ def test_same_seed_same_numbers_other_seed_others():
 
 def test_a_voltage_limit_is_flagged_and_stays_finite():
     rig = StandIn()
-    rig.voltage_limit = 1.0
+    rig.input_limit = 1.0
     found = compare(model(), rig, "stand-in", rate=2000.0)
     assert np.isfinite(found.scores.select_dtypes("number").to_numpy()).all()
     assert (by_controller(found, "saturated_share").loc["ramp"] > 0.2).all()
@@ -151,7 +152,7 @@ def test_on_a_plant_that_is_the_model_only_the_sampling_is_left():
     (reference,) = (each for each in published_references(2.0, RATE) if each.name == "sine-30-hz")
     for series in (False, True):
         plant, forward = rig.plant(RATE), feed_forward(model())
-        run = track(plant, law, forward, reference, 5.0, np.random.default_rng(0), series)
+        run = track(plant, law, forward, reference=reference, limit=5.0, rng=np.random.default_rng(0), series=series)
         errors.append(run.scores()["t_rmse"])
     assert max(errors) < 0.1 * reference.delay_floor  # half a sample of hold, less what feedback takes
 
@@ -341,6 +342,6 @@ def test_track_scores_only_past_the_history():
     reference = Reference("step", time, np.where(time > 0, 1.0, 0.0), history=100)
     law = ProportionalIntegral(section.gain, 0.0, 0.0, 1e-3)
     rng = np.random.default_rng(0)
-    run = track(StandIn().plant(1000.0), law, feed_forward(model()), reference, 5.0, rng)
+    run = track(StandIn().plant(1000.0), law, feed_forward(model()), reference=reference, limit=5.0, rng=rng)
     assert run.error.size == 100
     assert run.scores()["t_error"] < 0.5 < np.abs(reference.position - run.displacement)[:100].max()

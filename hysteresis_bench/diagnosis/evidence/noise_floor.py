@@ -14,8 +14,6 @@ from hysteresis_bench.signals import Record
 FINEST = 5e-4
 """Share of the output's range below which an error is rounding and numerics, whatever the noise."""
 
-HUM = "periodic-disturbance"
-
 
 def floor_of(records: Sequence[Record], noise: Noise) -> float:
     """RMS below which nothing is judged: noise, what lies between the samples, rounding."""
@@ -24,10 +22,12 @@ def floor_of(records: Sequence[Record], noise: Noise) -> float:
 
 
 def without_hum(bench: Bench, trial: Trial) -> tuple[Record, ...]:
-    """The records without the periodic disturbance that was found."""
-    if HUM not in trial.names:
+    """The records without the disturbances that were found."""
+    found = {name: bench.stack.effect(name) for name in trial.names}
+    hums = {name: effect for name, effect in found.items() if effect.family == "added disturbance"}
+    if not hums:
         return bench.stack.records
-    silent = {f"{HUM}.{p.name}": p.null for p in bench.stack.effect(HUM).parameters if p.null is not None}
+    silent = {f"{name}.{p.name}": p.null for name, one in hums.items() for p in one.parameters if p.null is not None}
     system, loud = bench.fitted(trial)
     _, still = bench.fitted(replace(trial, values={**trial.values, **silent}))
     both = np.column_stack([loud, still])

@@ -7,13 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.findings.description import NAME
 from hysteresis_bench.diagnosis.findings.result import Candidate, Stage, Step
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie, tie
 from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
 from hysteresis_bench.diagnosis.search.selection import Selection
-from hysteresis_bench.diagnosis.search.systems import OFFSETS
+from hysteresis_bench.registry import COMMON_OFFSET, DESCRIPTION, OFFSETS
 
 
 def ties_of(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[Trial]]:
@@ -80,7 +79,7 @@ def description_row(equation: Equation, before: Stage) -> Candidate:
     coefficients = {part.term.symbol: part.coefficient for part in equation.terms}
     worst = max(part.p for part in equation.terms)
     return Candidate(
-        NAME,
+        DESCRIPTION,
         True,
         adopted=True,
         rmse=left_out,
@@ -106,12 +105,12 @@ def waterfall_of(
 ) -> tuple[tuple[str, float], ...]:
     """Label and RMSE on all fitted samples, from the bare model to the final system, all with the same offset."""
     offsets = frozenset(before.names) & {*OFFSETS}
-    label = f"{model} with a bias" if "bias" in offsets else f"{model} alone"
+    label = f"{model} with a bias" if COMMON_OFFSET in offsets else f"{model} alone"
     bars = [(label, before.fitted.rmse)]
     for name, trial in steps[:-1]:
         same = replace(trial, names=(trial.names - {*OFFSETS}) | offsets, values={**final.values, **trial.values})
         left = full.errors(same.names, full.polished(same))
         bars.append((name, float(np.sqrt(np.mean(left**2)))))
     if steps or after is not before:
-        bars.append((steps[-1][0] if steps else "bias", after.fitted.rmse))
+        bars.append((steps[-1][0] if steps else COMMON_OFFSET, after.fitted.rmse))
     return tuple(bars)

@@ -19,7 +19,6 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
-from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
 from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.words import WRONG
@@ -27,6 +26,7 @@ from hysteresis_bench.diagnosis.search.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import LEVEL
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import write_model
+from hysteresis_bench.registry import DESCRIPTION
 
 SCHEMA = 1
 DIAGNOSIS, MODEL, RESPONSES = "diagnosis.json", "model.json", "responses.csv"
@@ -93,7 +93,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "floor": floor,
         "doubtful": content["after"]["fitted"]["rmse"] > WRONG * floor,
         "described": [],
-        "common_offset": offset if offset and list(content["effects"]) != [offset] else None,
+        "offset_of_both": offset if offset and list(content["effects"]) != [offset] else None,
         "equation": left,
         "experiment": None,
     }
@@ -110,7 +110,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     noise_rms : of the noise;  floor : RMS from which anything is judged, a little above it
     doubtful : is so much left that the names may stand in for something else?
     described : those of the effects that describe what was left, and explain nothing
-    common_offset : the effect that gives the system before an offset, as it does after
+    offset_of_both : the offset, where the system before has it as the one after has
     """
     offset = diagnosis.offset
     return {
@@ -121,7 +121,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "effects": list(diagnosis.effects),
         "described": [name for name in diagnosis.effects if name == DESCRIPTION],
         "offset": offset or None,
-        "common_offset": offset if offset in diagnosis.before.names else None,
+        "offset_of_both": offset if offset in diagnosis.before.names else None,
         "before": _errors(diagnosis.before),
         "after": _errors(diagnosis.after),
         "noise_rms": diagnosis.noise.floor,

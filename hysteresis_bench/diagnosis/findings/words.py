@@ -6,11 +6,11 @@ from collections.abc import Mapping, Sequence
 
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.evidence.noise import Noise
-from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
 from hysteresis_bench.diagnosis.findings.result import Stage, Verdict
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.hypotheses import Trial
 from hysteresis_bench.fit.combinations import listed
+from hysteresis_bench.registry import DESCRIPTION, OFFSETS
 from hysteresis_bench.signals import Record
 
 WRONG = 2.0
@@ -72,7 +72,7 @@ def warnings(
     ties: Sequence[Tie],
 ) -> tuple[str, ...]:
     """What a user must know before believing the names. floor : RMS from which anything is judged"""
-    told = list(model.advice(records)) if not final.names & {"bias", "record-offset"} else []
+    told = list(model.advice(records)) if not final.names & {*OFFSETS} else []
     if after.fitted.rmse > WRONG * floor and not alone:
         told.append(
             f"The final system still leaves {after.fitted.rmse / floor:.2g} times the noise: the model's own law does "

@@ -17,7 +17,8 @@ from hysteresis_bench.diagnosis.search.nested_test import SEARCHED, NestedTest, 
 from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_of, split, values_of
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.search import generator, search, shared_start
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.parameters import Parameter
 
 BUDGET = 1500
@@ -149,8 +150,8 @@ class Bench:
         """Is the larger one better than chance?"""
         known, all_ = (len(self.stack.problem(trial.names).space.names) for trial in (smaller, larger))
         offsets = len(self.stack.records)
-        count = [offsets if "record-offset" in trial.names else 0 for trial in (smaller, larger)]
-        nuisance = {"record-offset", "bias"} >= larger.names ^ smaller.names
+        count = [offsets if registry.RECORD_OFFSET in trial.names else 0 for trial in (smaller, larger)]
+        nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
         added = all_ - known + count[1] - count[0]
         less, more = (split(trial.residuals, self.stack.records) for trial in (smaller, larger))
         return nested_test(less, more, max(added, 1) + (0 if nuisance else SEARCHED), all_ + count[1])
@@ -186,7 +187,7 @@ class Bench:
         if not problem.space.dimension:
             return np.empty(0)
         start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
-        optimizer = registry.build("optimizers", "pso-constriction")
+        optimizer = registry.build("optimizers", registry.SEARCH)
         found = search(problem, optimizer, BUDGET, start, generator(self.seed, "diagnosis", run))
         return problem.space.to_unit(found.values[:, None])[:, 0]
 

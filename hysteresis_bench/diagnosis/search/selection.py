@@ -20,6 +20,7 @@ from hysteresis_bench.diagnosis.search.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
 from hysteresis_bench.diagnosis.search.nested_test import NestedTest
 from hysteresis_bench.diagnosis.search.workers import Crew
+from hysteresis_bench.registry import COMMON_OFFSET, RECORD_OFFSET
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""
@@ -284,11 +285,11 @@ class Selection:
 def with_simplest_offset(selection: Selection, trial: Trial) -> Trial:
     """The same effects with the simplest offset that the data accept: none, one for all records, one a record."""
     bench = selection.bench
-    none = bench.refitted(bench.reduced(trial, "record-offset"))
+    none = bench.refitted(bench.reduced(trial, RECORD_OFFSET))
     count = len(selection.candidates)
     if not selection.needed(none, trial, count):
         return none
-    common = bench.extended(none, "bias")
+    common = bench.extended(none, COMMON_OFFSET)
     if len(bench.stack.records) == 1 or not selection.needed(common, trial, count):
         return common
     return trial

@@ -49,7 +49,7 @@ def write_diagnosis_page(folder: Path) -> Path:
 
 def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
     found, units = kept.diagnosis, kept.model["units"]
-    offset = f" Both have the offset {found['common_offset']}." if found["common_offset"] else ""
+    offset = f" Both have the offset {found['offset_of_both']}." if found["offset_of_both"] else ""
     errors: list[Block] = [
         Figures([step_by_step(folder, found, units)]),
         errors_table(found, found["floor"], units, more=offset),

@@ -8,15 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from hysteresis_bench.diagnosis_study.case import Case
-from hysteresis_bench.diagnosis_study.run import (
-    CASES,
-    CONFUSION,
-    NOTHING,
-    STUDY,
-    confusion,
-    read_cases,
-    read_diagnosis_study,
-)
+from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.results import CASES, CONFUSION, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table

@@ -8,7 +8,7 @@ import pandas as pd
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.trials.summary import other_budgets, summarise
-from hysteresis_bench.study.closing_files import CLOSING
+from hysteresis_bench.study.afterwards.closing_files import CLOSING
 from hysteresis_bench.study.results import REPORT, SUMMARY, read_results
 
 __all__ = ["summarise", "write_report"]

@@ -6,24 +6,16 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis_study.case import Case, compared
-from hysteresis_bench.diagnosis_study.run import (
-    FOLDER,
-    NOTHING,
-    STUDY,
-    confusion,
-    is_diagnosis_study,
-    read_cases,
-    read_diagnosis_study,
-)
+from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.results import FOLDER, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
-from hysteresis_plugins.rigs.hidden_effects import CALIBRATED, EFFECTS, MODELS, HiddenEffects
 
 STUDIES = Path(__file__).parents[2] / "studies"
 
@@ -86,41 +78,54 @@ def test_the_confusion_matrix_counts_cases():
     assert [case.right for case in cases] == [True, False, False, True, False, False]
 
 
-@pytest.mark.parametrize("model", MODELS)
-def test_an_effect_of_no_strength_changes_nothing_and_a_hidden_one_is_seen(model):
-    clean = HiddenEffects(model, (), draw=3, noise=0.01)
-    for name in EFFECTS:
-        if name == "resonance":
-            continue  # at least 20 ms long
-        change = clean._change(name, 1e-6) / clean._noise_rms
-        assert change < 0.7, name  # the least delay or lag is one of the fine steps
-    lagged = HiddenEffects(model, ("transport-delay",), draw=3, noise=0.01)
-    measured, truth = (rig.measure("fast", np.random.default_rng(0)).records[0].output for rig in (lagged, clean))
-    assert np.sqrt(np.mean((measured - truth) ** 2)) > 3.0 * clean._noise_rms
-    assert lagged.measure("fast", np.random.default_rng(0)).hidden.keys() == {"transport-delay", "noise"}
-
-
-def test_a_draw_is_the_same_in_every_experiment_and_goes_through_all_effects():
-    one, two = (HiddenEffects("bouc-wen", hide=2, draw=5) for _ in range(2))
-    assert one.names == two.names
-    assert len(set(one.names)) == 2
-    record, again = (rig.measure("sweep", np.random.default_rng(7)).records[0] for rig in (one, two))
-    np.testing.assert_array_equal(record.output, again.output)
-    assert {HiddenEffects("bouc-wen", hide=1, draw=draw).names[0] for draw in range(12)} == set(EFFECTS)
-    assert set(CALIBRATED) < set(HiddenEffects.experiments)
+def faults_of(folder, text):
+    file = folder / "s.toml"
+    file.write_text(text)
+    with pytest.raises(UserError) as error:
+        read_diagnosis_study(file)
+    return error.value.faults
 
 
 def test_faults_of_a_study_are_told_at_once(tmp_path):
-    file = tmp_path / "s.toml"
-    file.write_text(TEXT.replace('"fast"', '"fastt"').replace('model = "bouc-wen"\nfitted', 'model = "bouc"\nfitted'))
-    with pytest.raises(UserError, match="bouc"):
-        read_diagnosis_study(file)
-    file.write_text(TEXT.replace('"fast"', '"fastt"'))
-    with pytest.raises(UserError, match="fastt"):
-        read_diagnosis_study(file)
-    file.write_text(TEXT + "sed = 1\n")
-    with pytest.raises(UserError, match="sed"):
-        read_diagnosis_study(file)
+    text = TEXT.replace('"fast"', '"fastt"').replace('model = "bouc-wen"\nfitted', 'model = "bouc"\nfitted')
+    text = text.replace("seed = 1", 'sed = 1\ntimeout = "soon"')
+    text += '\nhidden = ["creeep|drift"]\n[[bench]]\nname = "clean"\nrig = "smaa"\n'
+    faults = " ".join(faults_of(tmp_path, text))
+    for part in (
+        'no key "sed". Known: bench, kind, notes, seed, timeout, title, trials. Did you mean "seed"?',
+        "seed: field required",
+        "'soon' is not a time",
+        '[[bench]] 1: no model "bouc"',
+        'Did you mean "bouc-wen"',
+        '[[bench]] 1: fitted: rig hidden-effects has no experiment "fastt"',
+        'Did you mean "fast"',
+        '[[bench]] 1: hidden: no effect "creeep"',
+        'Did you mean "creep"',
+        '[[bench]] 2: no rig "smaa"',
+        "[[bench]] 2 model: field required",
+        'two [[bench]] are both called "clean"; give one another name.',
+    ):
+        assert part in faults, part
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (('vary = "draw"', 'vary = "drw"'), '[[bench]] 1: hidden-effects has no setting "drw"'),
+        (("fresh = ", "fresj = "), '[[bench]] 1: no key "fresj"'),
+        (('kind = "diagnosis"', 'kind = "diagnosi"'), "kind: input should be 'diagnosis'"),
+        (('fresh = ["stairs"]', 'hidden = "of the rg"'), "[[bench]] 1 hidden: input should be a valid list"),
+        (('settings = { model = "bouc-wen", noise = 0.01 }', "settings = 3"), "[[bench]] 1 settings: input should be"),
+    ],
+)
+def test_a_single_typo_is_one_sentence(tmp_path, change, sentence):
+    (fault,) = faults_of(tmp_path, TEXT.replace(*change))
+    assert fault.startswith(sentence)
+
+
+def test_a_wrong_kind_is_no_ordinary_study(tmp_path):
+    (tmp_path / "s.toml").write_text(TEXT.replace('kind = "diagnosis"', 'kind = "diagnosi"'))
+    assert is_diagnosis_study(tmp_path / "s.toml")
 
 
 def test_the_study_that_ships_is_one_of_diagnosis():
