@@ -1,0 +1,30 @@
+"""Find what a model lacks: data with a hidden effect, the verdict, the error before and after, a better model."""
+
+from pathlib import Path
+
+import numpy as np
+
+from hysteresis_bench import diagnose, load
+from hysteresis_bench.data_files import write_csv
+from hysteresis_plugins.rigs.hidden_effects import HiddenEffects
+
+if __name__ == "__main__":
+    # A rig with settings: a Bouc-Wen actuator behind a lag that the model does not know of.
+    rig = HiddenEffects(effects=("input-lag",))
+    rng = np.random.default_rng(1)
+    files = [Path(f"{experiment}.csv") for experiment in ("slow", "fast", "nested", "mixed")]
+    for file in files:
+        write_csv(file, rig.measure(file.stem, rng))
+
+    # Records of several speeds and amplitudes; what is held out is opened once, at the end.
+    found = diagnose(load(*files, held_out=["mixed"]), "bouc-wen", seed=1, jobs=1)
+
+    print(found.verdict, "·", found.headline)
+    for candidate in found.candidates:
+        if candidate.applicable:
+            print(f"{candidate.effect:24} {'adopted' if candidate.adopted else '':8} RMSE {candidate.rmse:.4g}")
+    for tie in found.ties:
+        print(f"these data cannot tell {tie.effect} from {tie.rival}")
+    for name, estimate in found.model.parameters.items():
+        print(f"{name:28} {estimate.value:.4g} ± {estimate.standard_error:.2g} {estimate.unit}")
+    print(f"held out: {found.before.held_out.rmse:.3g} before, {found.after.held_out.rmse:.3g} after")

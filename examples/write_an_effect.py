@@ -1,0 +1,34 @@
+"""Write an effect, registered in examples/pyproject.toml, and fit a model with and without it."""
+
+from dataclasses import dataclass, replace
+
+from scipy.integrate import cumulative_trapezoid
+
+from hysteresis_bench import fit, measure
+from hysteresis_bench.contracts import Effect
+from hysteresis_bench.parameters import Parameter
+
+
+def charge(time, voltage):
+    """The integral of the voltage over time from the first sample, (samples, swarm) like the voltage."""
+    return cumulative_trapezoid(voltage, time, axis=0, initial=0.0)
+
+
+@dataclass(frozen=True)
+class Leakage(Effect):
+    """A conducting path beside the actuator: y + conductance ∫ u dt, as in charge measurements."""
+
+    parameters = (Parameter("conductance", -1.0, 1.0, "{output}/{input}/{time}", null=0.0),)
+
+    def apply(self, inner, signal, p):
+        return inner(signal) + p.conductance * charge(signal.time, signal.input)
+
+
+if __name__ == "__main__":
+    data = measure("hidden-effects", "slow", seed=1)
+    data = data.map(lambda record: replace(record, output=record.output + 0.3 * charge(record.time, record.input)))
+    for effects in ([], ["leakage"]):
+        result = fit(data, "bouc-wen", effects, budget=4000, seed=1)
+        error, noise = float(result.records["rmse"].iloc[0]), data.hidden["noise"]
+        print(f"{' and '.join(['bouc-wen', *effects]):24} leaves {error / noise:.3g} times the noise")
+    print(f"conductance {result.parameters.set_index('name').loc['leakage.conductance', 'value']:.3f}, hidden 0.300")
