@@ -31,27 +31,32 @@ INTRODUCTIONS: dict[registry.Kind, str] = {
 
 def page(kind: registry.Kind) -> str:
     """The page of a kind of plugin, in Markdown."""
-    plugins = [plugin for plugin in map(lambda name: registry.load(kind, name), registry.names(kind))]
     parts = [f"# {kind.capitalize()}", INTRODUCTIONS[kind]]
-    for plugin in plugins:
-        if plugin.distribution == OURS and plugin.loaded is not None:
-            parts += _plugin(kind, plugin.name, plugin.loaded)
-    if kind == "effects":
-        for name, models in registry.offered().items():
-            effect = type(registry.load("models", models[0]).loaded.offers[name])  # type: ignore[union-attr]
-            parts += _plugin(kind, name, effect, f"Inside the state equation of {', '.join(f'`{m}`' for m in models)}.")
+    for name, loaded in _effects().items() if kind == "effects" else _shipped(kind).items():
+        parts += _plugin(kind, name, loaded)
     return "\n\n".join(parts) + "\n"
 
 
-def _plugin(kind: registry.Kind, name: str, loaded: Any, more: str = "") -> list[str]:
+def _shipped(kind: registry.Kind) -> dict[str, Any]:
+    """Our own plugins of a kind, by name."""
+    plugins = [registry.load(kind, name) for name in registry.names(kind)]
+    return {plugin.name: plugin.loaded for plugin in plugins if plugin.distribution == OURS and plugin.loaded}
+
+
+def _effects() -> dict[str, Any]:
+    """Effects around models, and those that models offer inside their state equations."""
+    models = _shipped("models")
+    inside = {name: models[offering[0]].offers[name] for name, offering in registry.offered().items()}
+    return {**_shipped("effects"), **{name: type(effect) for name, effect in inside.items()}}
+
+
+def _plugin(kind: registry.Kind, name: str, loaded: Any) -> list[str]:
     parts = [f"## {name}", markdown(loaded.__doc__ or "")]
     if kind == "effects":
-        parts.append(_acts(loaded))
-    if more:
-        parts.append(more)
+        parts.append(_acts(name, loaded))
     if kind in ("models", "effects"):
         parts.append(_parameters(loaded.parameters))
-        parts += _mistaken_for(loaded) if kind == "effects" else []
+        parts += _mistaken_for(name, loaded) if kind == "effects" else []
         parts += _offers(loaded) if kind == "models" else []
     if kind == "rigs":
         parts.append(table(["experiment", "what is measured"], loaded.experiments.items()))
@@ -67,13 +72,18 @@ def _module(loaded: Any) -> list[str]:
     return ["From its file:", markdown(said)] if said else []
 
 
-def _acts(effect: Any) -> str:
+def _acts(name: str, effect: Any) -> str:
     words = f"Acts: {effect.acts}. Family: {effect.family}."
+    if name in registry.offered():
+        models = ", ".join(f"[{model}](models.md#{model})" for model in registry.offered()[name])
+        words += f" It stands inside the state equation of {models}."
     return f"{words} A nuisance: it is estimated and never claimed." if effect.nuisance else words
 
 
-def _mistaken_for(effect: Any) -> list[str]:
-    rows = [(f"`{name}`", reason) for name, reason in sorted(effect.mistaken_for.items())]
+def _mistaken_for(name: str, effect: Any) -> list[str]:
+    """What the effect says itself, and what others say of it: it is enough for one of the two."""
+    reasons = {other: own.mistaken_for[name] for other, own in _effects().items() if name in own.mistaken_for}
+    rows = [(f"`{other}`", reason) for other, reason in sorted({**reasons, **effect.mistaken_for}.items())]
     return [table(["may be mistaken for", "because"], rows)] if rows else []
 
 

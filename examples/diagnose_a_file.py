@@ -2,22 +2,20 @@
 
 from pathlib import Path
 
-import numpy as np
-
-from hysteresis_bench import diagnose, load
+from hysteresis_bench import diagnose, load, measure
 from hysteresis_bench.data_files import write_csv
-from hysteresis_plugins.rigs.hidden_effects import HiddenEffects
+
+EXPERIMENTS = ("slow", "fast", "nested", "mixed")
 
 if __name__ == "__main__":
     # A rig with settings: a Bouc-Wen actuator behind a lag that the model does not know of.
-    rig = HiddenEffects(effects=("input-lag",))
-    rng = np.random.default_rng(1)
-    files = [Path(f"{experiment}.csv") for experiment in ("slow", "fast", "nested", "mixed")]
-    for file in files:
-        write_csv(file, rig.measure(file.stem, rng))
+    for experiment in EXPERIMENTS:
+        data = measure("hidden-effects", experiment, settings={"effects": ["input-lag"]}, seed=1)
+        write_csv(Path(f"{experiment}.csv"), data)
 
     # Records of several speeds and amplitudes; what is held out is opened once, at the end.
-    found = diagnose(load(*files, held_out=["mixed"]), "bouc-wen", seed=1, jobs=1)
+    data = load(*(f"{experiment}.csv" for experiment in EXPERIMENTS), held_out=["mixed"])
+    found = diagnose(data, "bouc-wen", seed=1, jobs=1)
 
     print(found.verdict, "·", found.headline)
     for candidate in found.candidates:

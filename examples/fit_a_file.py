@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from hysteresis_bench import fit, load, measure, predict
+from hysteresis_bench import FitOptions, fit, load, measure, predict
 from hysteresis_bench.data_files import write_csv
 from hysteresis_bench.fit.model_file import write_model
 
@@ -12,7 +12,7 @@ if __name__ == "__main__":
         write_csv(Path(f"{experiment}.csv"), measure("hidden-effects", experiment, seed=1))
 
     data = load("slow.csv", "nested.csv", "mixed.csv", held_out=["mixed"])
-    result = fit(data, "bouc-wen", seed=1)
+    result = fit(data, "bouc-wen", options=FitOptions(seed=1))
 
     print(result.parameters.to_string(index=False))  # name, value, standard_error, unit, at_bound
     print(result.records.to_string(index=False))  # the error of every record; mixed was not fitted

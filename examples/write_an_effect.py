@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from scipy.integrate import cumulative_trapezoid
 
-from hysteresis_bench import fit, measure
+from hysteresis_bench import FitOptions, fit, measure
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 
@@ -18,6 +18,8 @@ def charge(time, voltage):
 class Leakage(Effect):
     """A conducting path beside the actuator: y + conductance ∫ u dt, as in charge measurements."""
 
+    acts = "added"
+    family = "added disturbance"
     parameters = (Parameter("conductance", -1.0, 1.0, "{output}/{input}/{time}", null=0.0),)
 
     def apply(self, inner, signal, p):
@@ -28,7 +30,7 @@ if __name__ == "__main__":
     data = measure("hidden-effects", "slow", seed=1)
     data = data.map(lambda record: replace(record, output=record.output + 0.3 * charge(record.time, record.input)))
     for effects in ([], ["leakage"]):
-        result = fit(data, "bouc-wen", effects, budget=4000, seed=1)
+        result = fit(data, "bouc-wen", effects, options=FitOptions(budget=4000, seed=1))
         error, noise = float(result.records["rmse"].iloc[0]), data.hidden["noise"]
         print(f"{' and '.join(['bouc-wen', *effects]):24} leaves {error / noise:.3g} times the noise")
     print(f"conductance {result.parameters.set_index('name').loc['leakage.conductance', 'value']:.3f}, hidden 0.300")

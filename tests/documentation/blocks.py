@@ -8,12 +8,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
+from hysteresis_bench import measure
 from hysteresis_bench.data_files import write_csv
-from hysteresis_plugins.rigs.hidden_effects import HiddenEffects
 from tests.conftest import ROOT
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
-PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs" / "pages").glob("*.md"))]
 
 STUDY = """
 title = "A stand-in for a study that takes minutes"
@@ -39,14 +39,14 @@ class Block:
 
 
 def blocks(*languages: str) -> list[Block]:
-    """The blocks of all pages in these languages."""
+    """The blocks of all pages in these languages; in any where none is named."""
     found = []
     for page in PAGES:
         text = page.read_text(encoding="utf-8")
         for match in FENCE.finditer(text):
             line = text.count("\n", 0, match.start()) + 1
             found.append(Block(page.name, line, match[1], match[2]))
-    return [block for block in found if block.language in languages]
+    return [block for block in found if not languages or block.language in languages]
 
 
 def commands(block: Block) -> list[str]:
@@ -58,9 +58,8 @@ def commands(block: Block) -> list[str]:
 def fill(folder: Path) -> None:
     """The files that the pages speak of, small."""
     for names, model in ((("slow", "fast", "nested", "mixed"), "bouc-wen"), (("mine", "other"), "jiles-atherton")):
-        rig, rng = HiddenEffects(model=model), np.random.default_rng(1)
         for name, experiment in zip(names, ("slow", "fast", "nested", "mixed"), strict=False):
-            write_csv(folder / f"{name}.csv", rig.measure(experiment, rng))
+            write_csv(folder / f"{name}.csv", measure("hidden-effects", experiment, settings={"model": model}))
     phase = 2 * np.pi * np.arange(200) / 200
     loops = [
         pd.DataFrame(
