@@ -10,11 +10,31 @@ from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal
 
-from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
+from hysteresis_bench.contracts import Acts, Effect, Family, Model, Optimizer, Rig
 from hysteresis_bench.errors import nearest
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
+WORDS = {"acts": typing.get_args(Acts), "family": typing.get_args(Family)}
+"""What an effect may say of itself."""
+
+# The defaults: the only names of plugins that the framework itself knows.
+SEARCH = "pso-constriction"
+"""The search of a fit where none is asked for: what `studies/sma.toml` shows for a log-scaled box. It succeeds in 30
+of 30 trials, as the best ones do, and is the cheapest of these by far (0.1 s a trial); the polish does the rest."""
+REFERENCE = "pso"
+"""What a study compares its optimizers with where it says nothing else."""
+RANDOM_SEARCH = "random-search"
+"""What every search must beat: the yardstick of a study's figures."""
+COMMON_OFFSET = "bias"
+"""The effect that adds one constant to all records."""
+RECORD_OFFSET = "record-offset"
+"""The effect that estimates one constant a record: what every diagnosis begins with."""
+OFFSETS = (COMMON_OFFSET, RECORD_OFFSET)
+DESCRIPTION = "description"
+"""The effect that adds accepted terms to the output: a description, and no physics."""
+BOUC_WEN, HAMMERSTEIN = "bouc-wen", "hammerstein"
+"""The models whose inverse `control` knows: hysteresis alone, and with a linear section behind it."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +84,13 @@ def load(kind: Kind, name: str) -> Plugin:
     contract = CONTRACTS[kind]
     if not (isinstance(loaded, type) and issubclass(loaded, contract)):
         return Plugin(kind, name, distribution, None, f"{point.value} does not keep the contract {contract.__name__}")
-    missing = sorted(getattr(loaded, "__abstractmethods__", ()))
-    if missing:
+    undeclared = [attribute for attribute in contract.__annotations__ if not hasattr(loaded, attribute)]
+    if missing := sorted({*getattr(loaded, "__abstractmethods__", ()), *undeclared}):
         return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")
+    for attribute, known in WORDS.items() if kind == "effects" else ():
+        if (word := getattr(loaded, attribute)) not in known:
+            fault = f'{loaded.__name__}: no {attribute} "{word}". {nearest(word, known)}'
+            return Plugin(kind, name, distribution, None, fault)
     return Plugin(kind, name, distribution, loaded)
 
 
@@ -79,6 +103,17 @@ def offered() -> Mapping[str, tuple[str, ...]]:
         for effect in plugin.loaded.offers if plugin.loaded else ():  # type: ignore[attr-defined]
             found[effect] = (*found.get(effect, ()), model)
     return found
+
+
+@cache
+def effect(name: str) -> type[Effect]:
+    """What declares an effect, also of one inside models. Raises KeyError if unknown, ValueError if broken."""
+    if name in offered() and name not in _points("effects"):
+        return type(load("models", offered()[name][0]).loaded.offers[name])  # type: ignore[union-attr]
+    plugin = load("effects", name)
+    if plugin.loaded is None:
+        raise ValueError(f'effect "{name}" is broken: {plugin.fault}')
+    return plugin.loaded
 
 
 def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from pathlib import Path
 
 from rich.console import Console
 
@@ -13,3 +14,8 @@ def plain_console() -> Console:
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = 120
     return console
+
+
+def say_path(console: Console, what: str, path: Path) -> None:
+    """Where something was written, on one line however long the path is."""
+    console.print(f"{what}: {path}", highlight=False, soft_wrap=True)

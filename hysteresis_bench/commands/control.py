@@ -38,21 +38,25 @@ def control(
     """Use a fitted MODEL.json: the input that follows a trajectory (--reference), controllers on a rig (--rig)."""
     from rich.console import Console
 
+    from hysteresis_bench import control as control_on_rig
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
+    from hysteresis_bench.report.control.page import print_control, write_control
 
     if rig is None and reference is None:
         raise UserError("control", "give --rig NAME to compare controllers, or --reference CSV for a feed-forward.")
     fitted, console = read_model(model), Console(soft_wrap=False)
     folder = out or Path(f"{model.stem}-control")
-    try:
-        if reference is not None:
+    if reference is not None:
+        try:
             _write_feed_forward(fitted, reference, voltage_limit, folder, console)
-        if rig is not None:
-            options = {"rate": rate, "amplitude": amplitude, "seed": seed}
-            _compare(fitted, model.stem, rig, {key: value for key, value in options.items() if value}, folder, console)
-    except ValueError as error:
-        raise UserError(str(model), str(error)) from None
+        except ValueError as error:
+            raise UserError(str(model), str(error)) from None
+    if rig is not None:
+        comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed)
+        page = write_control(folder, comparison, f"{fitted.model} ({model.stem})")
+        print_control(comparison, console)
+        console.print(f"page: {page}", highlight=False, soft_wrap=True)
 
 
 def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, folder: Path, console: Console) -> None:
@@ -82,22 +86,3 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     if forward.ignored:
         console.print(f"[yellow]note:[/] not inverted: {', '.join(forward.ignored)}.", highlight=False)
     console.print(f"feed-forward: {folder / FEED_FORWARD}", highlight=False, soft_wrap=True)
-
-
-def _compare(fitted: FittedModel, name: str, rig: str, options: dict, folder: Path, console: Console) -> None:
-    from hysteresis_bench import registry
-    from hysteresis_bench.control.comparison import compare
-    from hysteresis_bench.errors import UserError
-    from hysteresis_bench.report.control.page import print_control, write_control
-
-    faults = registry.faults("rigs", rig, {})
-    if faults:
-        raise UserError("control", faults)
-    bench = registry.build("rigs", rig)
-    if not hasattr(bench, "plant"):
-        able = [each for each in registry.names("rigs") if hasattr(registry.load("rigs", each).loaded, "plant")]
-        raise UserError("control", f"rig {rig} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
-    comparison = compare(fitted, bench, rig, **options)
-    page = write_control(folder, comparison, f"{fitted.model} ({name})")
-    print_control(comparison, console)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)

@@ -47,24 +47,21 @@ def fit(
     out: Path | None,
 ) -> None:
     """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
+    from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
-    from hysteresis_bench import load
     from hysteresis_bench.report.fit.folder import print_fit, write_fit
 
     dataset = load(*data, held_out=held_out, skip=skip)
-    fitted = fit_model(
-        dataset,
-        model,
-        effects,
-        bounds=_pairs(bounds),
-        fixed=_values(fixed),
-        settle=settle,
+    default = FitOptions()
+    options = FitOptions(
+        optimizer=optimizer or default.optimizer,
+        budget=budget or default.budget,
+        seed=seed,
         input_offset=input_offset,
         flip=flip,
-        seed=seed,
-        **({"optimizer": optimizer} if optimizer else {}),
-        **({"budget": budget} if budget else {}),
+        settle=settle,
     )
+    fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
     console = plain_console()
     print_fit(fitted, console)
     page = write_fit(out or Path(f"{data[0].stem}-fit"), fitted, data)

@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.closed_loop import Controller, Run, track
 from hysteresis_bench.control.feed_forward import FeedForward, feed_forward
 from hysteresis_bench.control.observer import observer
@@ -16,8 +17,9 @@ from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
-from hysteresis_bench.fit.search import generator
+from hysteresis_bench.fit.seeds import generator
 
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours
@@ -56,13 +58,23 @@ class Comparison:
     warnings: tuple[str, ...]
 
 
-def scores_on_rig(fitted: FittedModel, rig: Any, name: str, seed: int) -> pd.DataFrame:
-    """The scores of `compare`, as a study's stages ask for them."""
-    return compare(fitted, rig, name, seed=seed).scores
+def stepped_rig(name: str) -> SteppedRig:
+    """A registered rig with default settings that can be run sample by sample. Raises UserError where it cannot."""
+    faults = registry.faults("rigs", name, {})
+    if faults:
+        raise UserError("control", faults)
+    rig = registry.build("rigs", name)
+    if not isinstance(rig, SteppedRig):
+        loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+        able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
+        raise UserError(
+            "control", f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}."
+        )
+    return rig
 
 
 def compare(
-    fitted: FittedModel, rig: Any, name: str, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
+    fitted: FittedModel, rig: SteppedRig, name: str, *, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
 ) -> Comparison:
     """Run every controller that the model allows along every reference, on the rig.
 
@@ -73,18 +85,18 @@ def compare(
     """
     forward = feed_forward(fitted)
     controllers, tuning = _controllers(forward, 1.0 / rate, _model_error(fitted, amplitude))
-    plant, floor = rig.plant(rate), _noise_floor(rig)
+    plant, floor = rig.plant(rate), rig.noise_floor
     scores, responses = [], []
     for reference in published_references(amplitude, rate):
         for label, controller in controllers.items():
             rng = generator(seed, name, reference.name)
-            run = track(plant, controller, forward, reference, rig.voltage_limit, rng, series=label == IN_SERIES)
+            run = track(plant, controller, forward, reference, rig.input_limit, rng, series=label == IN_SERIES)
             key = {"reference": reference.name, "controller": label}
             floors = {"noise_floor": floor, "delay_floor": reference.delay_floor}
             scores.append(key | run.scores() | floors | {"unit": fitted.units["output"]})
             responses.append(_shown(run).assign(**key))
     table = pd.DataFrame(scores)
-    conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.voltage_limit}
+    conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
     return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, _warnings(table, forward))
 
 
@@ -110,13 +122,8 @@ def _controllers(
 
 
 def _model_error(fitted: FittedModel, amplitude: float) -> float:
-    told = (fitted.error.get("fitted") or {}).get("rmse")
-    return float(told) if told else UNKNOWN_ERROR * amplitude
-
-
-def _noise_floor(rig: Any) -> float:
-    """RMS of what the sensor adds: its noise, and rounding to its resolution."""
-    return float(np.hypot(getattr(rig, "noise", 0.0), getattr(rig, "resolution", 0.0) / np.sqrt(12.0)))
+    rmse = (fitted.error.get("fitted") or {}).get("rmse")
+    return float(rmse) if rmse else UNKNOWN_ERROR * amplitude
 
 
 def _shown(run: Run) -> pd.DataFrame:
@@ -144,15 +151,15 @@ NOTES = (
 
 
 def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
-    told = [
+    sentences = [
         f"{row.controller} on {row.reference}: the voltage limit cut {100 * row.saturated_share:.1f} % of the samples."
         for row in scores[scores["saturated_share"] > 0].itertuples()
     ]
     if forward.ignored:
-        told.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
+        sentences.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
     if forward.linear is None:
-        told.append(
+        sentences.append(
             "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
             "because the model does not know where the actuator resonates. Fit hammerstein for both."
         )
-    return tuple(told)
+    return tuple(sentences)

@@ -17,11 +17,12 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.control.inverse import BoucWenInverse, Point
 from hysteresis_bench.fit.model_file import FittedModel, Preparation
+from hysteresis_bench.registry import BOUC_WEN, HAMMERSTEIN
 from hysteresis_bench.signals import Record
 
 AS_IT_IS = Preparation()
 Part = TypeVar("Part")
-INVERTIBLE = ("bouc-wen", "hammerstein")
+INVERTIBLE = (BOUC_WEN, HAMMERSTEIN)
 
 
 @dataclass(frozen=True)
@@ -116,7 +117,7 @@ def feed_forward(fitted: FittedModel) -> FeedForward:
         faults, BoucWenInverse, p["alpha"], p["beta"], p["gamma"], p["d"], float(fitted.settings.get("n", 1.0))
     )
     linear = None
-    if fitted.model == "hammerstein":
+    if fitted.model == HAMMERSTEIN:
         linear = _or_fault(faults, LinearSection, p["b"], p["c_over_m"], p["k_over_m"])
     if hysteresis is None or faults:
         raise ValueError(" ".join(faults))

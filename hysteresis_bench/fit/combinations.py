@@ -35,7 +35,8 @@ class Combination:
         """What the combination comes to; values : by name, in units."""
         if self.kind == "sum":
             return sum(weight * values[name] for name, weight in self.weights)
-        return prod(values[name] ** weight for name, weight in self.weights)
+        product: float = prod(values[name] ** weight for name, weight in self.weights)
+        return product
 
     def __str__(self) -> str:
         if self.kind == "sum":
@@ -63,9 +64,9 @@ class Blindness:
     def __str__(self) -> str:
         if not self.combinations:
             return f"{listed(self.names)} {'does' if len(self.names) == 1 else 'do'} not act on these data at all."
-        told = listed([str(combination) for combination in self.combinations])
+        acting = listed([str(combination) for combination in self.combinations])
         count = "one" if len(self.fix) == 1 else str(len(self.fix))
-        return f"{listed(self.names)} act only through {told}: fix {count}, for example {listed(self.fix)}."
+        return f"{listed(self.names)} act only through {acting}: fix {count}, for example {listed(self.fix)}."
 
 
 def blind_groups(names: Sequence[str], values: Array, lost: Array) -> tuple[Blindness, ...]:
@@ -121,11 +122,13 @@ def _whole(vector: Array) -> Array:
     entry that is not 0 is positive."""
     support = vector[vector != 0.0]
     vector = vector * np.sign(support[0])
+    scaled: Array = vector / np.sort(np.abs(support))[support.size // 2]
     for multiple in range(1, 7):
         whole = vector * multiple / np.min(np.abs(support))
-        if np.max(np.abs(whole)) < 12 and np.max(np.abs(whole - np.round(whole))) < 0.01:
-            return np.round(whole)
-    return vector / np.sort(np.abs(support))[support.size // 2]
+        nearest: Array = np.round(whole)
+        if np.max(np.abs(whole)) < 12 and np.max(np.abs(whole - nearest)) < 0.01:
+            return nearest
+    return scaled
 
 
 def _connected(vectors: Array) -> list[tuple[list[int], Array]]:
@@ -143,7 +146,7 @@ def _connected(vectors: Array) -> list[tuple[list[int], Array]]:
 
 def _group(names: Sequence[str], values: Array, size: Array, group: tuple[list[int], Array]) -> Blindness:
     members, vectors = group[0], group[1][:, group[0]]
-    told = tuple(names[i] for i in members)
+    group_names = tuple(names[i] for i in members)
     relative = np.where(values[members] < 0.0, -size[members], size[members])
     products = _across(vectors * np.sign(relative))  # in logarithms, where a value is not 0
     sums = np.array([_whole(product / relative) for product in products]).reshape(products.shape)
@@ -151,10 +154,10 @@ def _group(names: Sequence[str], values: Array, size: Array, group: tuple[list[i
     as_sum = np.any(values[members] == 0.0) or _plainness(sums) < _plainness(products)
     kind: Literal["product", "sum"] = "sum" if as_sum else "product"
     acting = tuple(
-        Combination(kind, tuple((name, float(w)) for name, w in zip(told, vector, strict=True) if w != 0.0))
+        Combination(kind, tuple((name, float(w)) for name, w in zip(group_names, vector, strict=True) if w != 0.0))
         for vector in (sums if as_sum else products)
     )
-    return Blindness(told, acting, tuple(told[i] for i in _fixable(vectors)))
+    return Blindness(group_names, acting, tuple(group_names[i] for i in _fixable(vectors)))
 
 
 def _plainness(basis: Array) -> float:
@@ -182,10 +185,10 @@ def _fixable(vectors: Array) -> list[int]:
 
 
 def _power(name: str, exponent: float) -> str:
-    told = f"{exponent:.3g}"
-    return name if told == "1" else f"{name}^{told}"
+    shown = f"{exponent:.3g}"
+    return name if shown == "1" else f"{name}^{shown}"
 
 
 def _factor(weight: float) -> str:
-    told = f"{weight:.3g}"
-    return "" if told == "1" else f"{told} "
+    shown = f"{weight:.3g}"
+    return "" if shown == "1" else f"{shown} "

@@ -65,17 +65,17 @@ class Identifiability:
 
     def sentences(self) -> tuple[str, ...]:
         """What a user must know before believing the parameters; empty where all are well determined."""
-        told = []
+        sentences = []
         if self.rank < len(self.names):
-            told.append(f"The output sees {self.rank} of {len(self.names)} directions of the parameters.")
-        told += [str(blindness) for blindness in self.blind]
+            sentences.append(f"The output sees {self.rank} of {len(self.names)} directions of the parameters.")
+        sentences += [str(blindness) for blindness in self.blind]
         for direction in range(self.determined, self.rank):
             weights = np.abs(self.directions[:, direction])
             moved = [name for name, weight in zip(self.names, weights, strict=True) if weight > 0.3 * weights.max()]
-            told.append(f"Noise hides how {listed(moved)} act{'s' if len(moved) == 1 else ' together'}.")
+            sentences.append(f"Noise hides how {listed(moved)} act{'s' if len(moved) == 1 else ' together'}.")
         for i, j in np.argwhere(np.triu(np.abs(np.nan_to_num(self.correlation)), 1) > STRONG):
-            told.append(f"{self.names[i]} and {self.names[j]} are correlated by {self.correlation[i, j]:.4f}.")
-        return tuple(told)
+            sentences.append(f"{self.names[i]} and {self.names[j]} are correlated by {self.correlation[i, j]:.4f}.")
+        return tuple(sentences)
 
 
 def analyse(problem: Problem, values: Array, correlated: bool = True) -> Identifiability:

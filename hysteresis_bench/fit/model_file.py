@@ -1,10 +1,12 @@
-"""The fitted model as a file: model.json, schema 1, which `predict` and `control` read."""
+"""A fitted model: how it is made of a fit, what it predicts, and model.json, which `predict` and `control` read."""
 
 from __future__ import annotations
 
 import json
+import platform
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,8 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.signals import Dataset, Record
 
 SCHEMA = 1
@@ -81,14 +85,56 @@ class FittedModel:
         return dataset.map(predicted)
 
 
+def fitted_model(
+    problem: Problem,
+    values: Array,
+    errors: Array,
+    *,
+    dataset: Dataset,
+    model: str,
+    settings: Mapping[str, Any],
+    preparation: Preparation,
+) -> FittedModel:
+    """The model of a problem at `values` (dimension,), ready to predict and to be written.
+
+    errors : (dimension,) standard errors, inf where the data cannot tell
+    dataset : as the model sees it, prepared;  model, settings : the model's name and its settings
+    """
+    system, units = problem.system, dataset.units
+    offsets = np.array([[float(o[0]) for o in system.offsets(r, values[:, None])] for r in dataset.fitted])
+    remembered = {
+        name: effect.remembered(list(offsets[:, index])) for index, (name, effect) in enumerate(system.effects)
+    }
+    error = {"fitted": accuracy(system, dataset.fitted, values).as_dict()}
+    if dataset.held_out:
+        error["held_out"] = accuracy(system, dataset.held_out, values).as_dict()
+    return FittedModel(
+        model,
+        settings,
+        tuple(remembered),
+        {name: asdict(effect) for name, effect in remembered.items()},  # type: ignore[call-overload]
+        units,
+        {
+            parameter.name: Estimate(
+                float(value), float(error) if np.isfinite(error) else None, parameter.unit_in(units)
+            )
+            for parameter, value, error in zip(problem.space.parameters, values, errors, strict=True)
+        },
+        system.fixed,
+        preparation,
+        {"fitted": [r.name for r in dataset.fitted], "held_out": [r.name for r in dataset.held_out]},
+        error,
+        {"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
+    )
+
+
 def write_model(path: Path, fitted: FittedModel) -> None:
     """Write model.json."""
     own: dict[str, Any] = {}
     of_effects: dict[str, dict[str, Any]] = {name: {} for name in fitted.effects}
     for name, estimate in fitted.parameters.items():
         effect, _, parameter = name.rpartition(".")
-        told = {"value": estimate.value, "standard_error": estimate.standard_error, "unit": estimate.unit}
-        (of_effects[effect] if effect else own)[parameter] = told
+        (of_effects[effect] if effect else own)[parameter] = asdict(estimate)
     content = {
         "schema": SCHEMA,
         "model": fitted.model,
@@ -120,10 +166,10 @@ def read_model(path: Path) -> FittedModel:
         found = content.get("schema") if isinstance(content, dict) else None
         raise UserError(str(path), f"is not a fitted model of schema {SCHEMA}: its schema is {found!r}.")
     try:
-        estimates = {name: Estimate(**told) for name, told in content["parameters"].items()}
+        estimates = {name: Estimate(**numbers) for name, numbers in content["parameters"].items()}
         for effect in content["effects"]:
-            for name, told in effect["parameters"].items():
-                estimates[f"{effect['effect']}.{name}"] = Estimate(**told)
+            for name, numbers in effect["parameters"].items():
+                estimates[f"{effect['effect']}.{name}"] = Estimate(**numbers)
         fitted = FittedModel(
             content["model"],
             content["settings"],

@@ -87,7 +87,8 @@ class Problem:
         values = self.space.from_unit(point[:, None])
         parts = [self.system.respond(record, values)[record.scored, 0] - record.measured for record in self.records]
         limit = CEILING * self.scale
-        return np.clip(np.nan_to_num(np.concatenate(parts), nan=limit), -limit, limit)
+        residuals: Array = np.clip(np.nan_to_num(np.concatenate(parts), nan=limit), -limit, limit)
+        return residuals
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Trials on all cores: a pool that kills a hung trial, survives a crashed one, and loses no other."""
+"""Tickets, such as trials, on all cores: a pool that kills a hung one, survives a crashed one, and loses no other."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, TimeoutError, wait
 from contextlib import contextmanager
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from hysteresis_bench.errors import UserError
 
@@ -19,8 +19,8 @@ MEMORY_SHARE = 0.8
 """Share of the machine's memory that all workers together may take."""
 
 
-class Ended(Protocol):
-    """What a trial that ran to its end says of itself."""
+class Finished(Protocol):
+    """What a ticket that ran to its end says of itself."""
 
     @property
     def status(self) -> str: ...
@@ -30,15 +30,15 @@ class Ended(Protocol):
 
 
 T = TypeVar("T")
-E = TypeVar("E", bound=Ended)
+E = TypeVar("E", bound=Finished)
 
 
 def run_tickets(
     tickets: Sequence[T], run: Callable[[T], E], jobs: int, timeout: float
 ) -> Iterator[tuple[T, E | None, str, str]]:
-    """Yields (ticket, outcome or None, status, reason) as trials finish, in no order.
+    """Yields (ticket, outcome or None, status, reason) as tickets finish, in no order.
 
-    timeout : seconds a trial. Raises UserError where the caller's script starts it on being imported.
+    timeout : seconds a ticket. Raises UserError where the caller's script starts it on being imported.
     """
     from pebble import ProcessPool
 
@@ -46,7 +46,7 @@ def run_tickets(
         raise UserError("run_study", 'guard the call in your script with `if __name__ == "__main__":`.')
     context = multiprocessing.get_context("spawn")  # a forked copy of a threaded parent may hang
     with _single_threaded_children(), ProcessPool(jobs, initializer=_limit, initargs=[jobs], context=context) as pool:
-        futures: dict[Future, T] = {}
+        futures: dict[Future[E], T] = {}
         waiting = iter(tickets)
         try:
             while True:
@@ -58,11 +58,12 @@ def run_tickets(
                 for future in wait(futures, return_when=FIRST_COMPLETED).done:
                     yield futures.pop(future), *_verdict(future, timeout)
         except BaseException:
-            pool.stop()
+            stop: Callable[[], None] = pool.stop
+            stop()
             raise
 
 
-def _verdict(future: Future, timeout: float) -> tuple[Any, str, str]:
+def _verdict(future: Future[E], timeout: float) -> tuple[E | None, str, str]:
     from pebble import ProcessExpired
 
     try:
@@ -75,7 +76,7 @@ def _verdict(future: Future, timeout: float) -> tuple[Any, str, str]:
         if error.exitcode is not None and -error.exitcode == signal.SIGKILL:
             return None, "out-of-memory", "killed from outside, as the system does when memory runs out"
         return None, "crashed", f"the worker process ended with exit code {error.exitcode}"
-    except Exception as error:  # the optimizer's own fault, whatever it is, becomes the trial's row
+    except Exception as error:  # a plugin's own fault, whatever it is, becomes the ticket's row
         return None, "raised", f"{type(error).__name__}: {' '.join(str(error).split())}"
     return outcome, outcome.status, outcome.reason
 

@@ -13,7 +13,7 @@ import pandas as pd
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.study.closing_files import Closing, read_closing
+from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import Study, check_study
 

@@ -11,7 +11,8 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.search import generator, search, seed_of, shared_start
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, seed_of, shared_start
 from hysteresis_bench.study.problems import Built, build_problem
 from hysteresis_bench.study.store import Outcome
 from hysteresis_bench.study.study_file import Study

@@ -13,7 +13,7 @@ from hysteresis_bench.cli import Group
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.compose import System
 from hysteresis_bench.control.closed_loop import Target, track
-from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare
+from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare, scores_on_rig
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.pi import Memory, ProportionalIntegral
@@ -42,7 +42,8 @@ def model(name="hammerstein", effects=(), preparation=None, **changed):
 class StandIn:
     """A plant that is nearly the model: another loop height, a stiffer spring, a noisy and quantised sensor."""
 
-    voltage_limit, noise, resolution = 5.0, 0.003, 0.003
+    input_limit, noise, resolution = 5.0, 0.003, 0.003
+    noise_floor = np.hypot(noise, resolution / np.sqrt(12.0))
 
     def __init__(self, alpha=1.2 * PUBLISHED["alpha"], stiffness=1.1 * LINEAR["k_over_m"]):
         truth = model(alpha=alpha, k_over_m=stiffness)
@@ -126,12 +127,17 @@ def test_same_seed_same_numbers_other_seed_others():
 
 def test_a_voltage_limit_is_flagged_and_stays_finite():
     rig = StandIn()
-    rig.voltage_limit = 1.0
+    rig.input_limit = 1.0
     found = compare(model(), rig, "stand-in", rate=2000.0)
     assert np.isfinite(found.scores.select_dtypes("number").to_numpy()).all()
     assert (by_controller(found, "saturated_share").loc["ramp"] > 0.2).all()
     assert any("voltage limit cut" in told for told in found.warnings)
     assert found.responses["voltage"].abs().max() <= 1.0
+
+
+def test_a_rig_that_cannot_be_stepped_is_refused():
+    with pytest.raises(ValueError, match="sample by sample"):
+        scores_on_rig(model(), registry.build("rigs", "sma"), "sma", 0)
 
 
 def test_a_model_without_a_linear_section_has_no_sliding_mode_and_says_so():

@@ -4,7 +4,8 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.search import generator, search, shared_start
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.study_file import ProblemSpec
 from hysteresis_plugins.rigs.sma_known_truth import TRUTH

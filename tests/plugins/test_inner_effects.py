@@ -10,7 +10,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.fitting import fit_records
+from hysteresis_bench.fit.fitting import FitOptions, fit_records
 from hysteresis_bench.fit.model_file import read_model, write_model
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import INDEX, Dataset, Record
@@ -147,11 +147,11 @@ def test_a_fit_recovers_it_and_its_file_is_the_same_model(lagging, tmp_path):
     from hysteresis_bench.data_files import read_data
 
     dataset = read_data([lagging])
-    found = fit_records(dataset, "bouc-wen", [EDDY], budget=1500)
+    found = fit_records(dataset, "bouc-wen", [EDDY], options=FitOptions(budget=1500))
     estimate = found.model.parameters[NAME]
     assert estimate.unit == "A s/T"
     assert abs(estimate.value - TRUTH[NAME]) < 4 * estimate.standard_error < 0.1 * TRUTH[NAME]
-    without = fit_records(dataset, "bouc-wen", budget=1500)
+    without = fit_records(dataset, "bouc-wen", options=FitOptions(budget=1500))
     assert without.records["rmse"].max() > 5 * found.records["rmse"].max()
     write_model(tmp_path / "model.json", found.model)
     content = json.loads((tmp_path / "model.json").read_text(encoding="utf-8"))

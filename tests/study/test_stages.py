@@ -16,7 +16,7 @@ from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.results import RESPONSES, STAGES, STUDY, read_results
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import check_study, read_study
-from hysteresis_plugins.rigs.pea_noise_free import PUBLISHED
+from hysteresis_plugins.rigs.pea_known_truth import PUBLISHED
 
 LINEAR = {"b": 267_700.0, "c_over_m": 510.1069, "k_over_m": 255_700.0}
 

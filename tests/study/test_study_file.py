@@ -4,7 +4,8 @@ import pytest
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.problems import closing_dataset
-from hysteresis_bench.study.study_file import duration, read_study
+from hysteresis_bench.study.strict import duration
+from hysteresis_bench.study.study_file import read_study
 
 GOOD = """
 title = "t"

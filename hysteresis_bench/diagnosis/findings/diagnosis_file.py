@@ -11,7 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
-from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
+from hysteresis_bench.diagnosis.findings.candidates import Candidate
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.fit.model_file import write_model
 
 SCHEMA = 1

@@ -5,43 +5,21 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from functools import cache, cached_property
+from typing import get_args
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.contracts import Effect, Model
+from hysteresis_bench.contracts import Acts, Effect, Family, Model
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 
-INNER = (
-    "eddy-current",
-    "rayleigh-hysteresis",
-    "backlash",
-    "asymmetry",
-    "input-lag",
-    "saturation",
-    "fatigue",
-    "temperature-sensitivity",
-    "creep",
-    "output-lag",
-    "resonance",
-    "transport-delay",
-)
-OUTER = ("periodic-disturbance", "drift", "description", "bias", "record-drift", "record-offset")
-"""Innermost first: what acts on the input, then on the response, then what is added to it. An effect that is
-not named here, such as one of another distribution, stands between the two."""
 
-OFFSETS = ("bias", "record-offset")
-NO_CLAIM = (*OFFSETS, "record-drift", "description")
-"""Nuisances that the user or the search puts there, and what is described and not explained: no candidates."""
-
-
-def place(name: str) -> tuple[int, str]:
-    """Sorts effects from the innermost to the outermost."""
-    if name in OUTER:
-        return len(INNER) + 1 + OUTER.index(name), name
-    return (INNER.index(name) if name in INNER else len(INNER)), name
+def place(name: str, effect: type[Effect]) -> tuple[int, bool, int, str]:
+    """Sorts effects from the innermost to the outermost, by what they declare: where they act, nuisances last, then
+    their family, then the alphabet."""
+    return get_args(Acts).index(effect.acts), effect.nuisance, get_args(Family).index(effect.family), name
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,8 +48,9 @@ class Stack:
 
     def system(self, names: Collection[str]) -> System:
         """The model with these effects in their places."""
-        outside = sorted({*names, *self.own}, key=place)
-        return System(self.model, tuple((name, self.effect(name)) for name in outside), self.fixed or {})
+        around = [(name, self.effect(name)) for name in {*names, *self.own}]
+        around.sort(key=lambda one: place(one[0], type(one[1])))
+        return System(self.model, tuple(around), self.fixed or {})
 
     def problem(self, names: Collection[str]) -> Problem:
         """Their least-squares problem; boxes follow from the fitted records."""
@@ -98,11 +77,13 @@ class Stack:
         """Names of the effects that can be tried, and of those that cannot, with the reason."""
         possible, impossible = [], {}
         known = {*registry.names("effects"), *registry.offered()}
-        for name in sorted(known - {*NO_CLAIM, *self.own}):
+        for name in sorted(known - {*self.own}):
             if name not in self.model.offers and name not in registry.names("effects"):
                 impossible[name] = "it acts inside the state equation, and this model does not offer it"
             elif name not in self.model.offers and (fault := registry.load("effects", name).fault):
                 impossible[name] = f"broken: {fault}"
+            elif self.effect(name).nuisance:
+                continue
             elif reason := self.effect(name).inapplicable(self.records):
                 impossible[name] = reason
             else:

@@ -7,11 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL, ResidualTest
-from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
-from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis
+from hysteresis_bench.diagnosis.findings.candidates import Candidate
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.words import WRONG
 from hysteresis_bench.diagnosis.search.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import LEVEL
+from hysteresis_bench.registry import DESCRIPTION
 from hysteresis_bench.report.diagnosis.before_after import (
     besides_ties,
     errors_table,

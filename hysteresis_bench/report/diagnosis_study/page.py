@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 
 from hysteresis_bench.diagnosis_study.case import Case
-from hysteresis_bench.diagnosis_study.run import CASES, CONFUSION, NOTHING, STUDY, read_cases, read_diagnosis_study
+from hysteresis_bench.diagnosis_study.confusion import NOTHING
+from hysteresis_bench.diagnosis_study.results import CASES, CONFUSION, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
 from hysteresis_bench.report.diagnosis.figures import confusion
 from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render, whole
 from hysteresis_bench.report.shared.theme import Picture
@@ -93,7 +95,7 @@ def _share(hits: Sequence[bool]) -> str:
 
 
 def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> tuple[str, Picture, Table] | None:
-    from hysteresis_bench.diagnosis_study.run import confusion as counted
+    from hysteresis_bench.diagnosis_study.confusion import confusion as counted
 
     table = counted(cases)
     if table.empty:

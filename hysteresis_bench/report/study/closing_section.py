@@ -11,7 +11,7 @@ from hysteresis_bench.report.diagnosis.before_after import besides_ties, errors_
 from hysteresis_bench.report.diagnosis.figures import waterfall
 from hysteresis_bench.report.shared.page import Table, listed
 from hysteresis_bench.report.shared.theme import Picture
-from hysteresis_bench.study.closing_files import Closing
+from hysteresis_bench.study.afterwards.closing_files import Closing
 from hysteresis_bench.study.results import Results
 from hysteresis_bench.study.study_file import ClosingSpec
 
@@ -79,9 +79,8 @@ def closing_in_words(closing: Closing) -> str:
     """One sentence: the verdict, or why there is none."""
     if closing.finished:
         return f"Closing the loop: {closing.diagnosis['headline']}"
-    return sentence(
-        f"The loop was not closed, the diagnosis has no result ({closing.told['status']}): {closing.told['reason']}"
-    )
+    status, reason = closing.outcome["status"], closing.outcome["reason"]
+    return sentence(f"The loop was not closed, the diagnosis has no result ({status}): {reason}")
 
 
 def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
@@ -90,6 +89,6 @@ def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
         f"Diagnosed: {spec.model}{known} fitted to {listed(spec.fitted)}. {listed(spec.held_out)} "
         f"{'was' if len(spec.held_out) == 1 else 'were'} held out: fitted by nobody, opened once, at the end."
     )
-    hidden = closing.told.get("hidden", [])
+    hidden = closing.outcome.get("hidden", [])
     if hidden:
         yield f"The virtual rig is built with {listed(hidden)}; the diagnosis was not told."

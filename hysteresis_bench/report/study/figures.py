@@ -11,13 +11,13 @@ import numpy as np
 
 from hysteresis_bench import stats
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.registry import RANDOM_SEARCH
 from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, picture, spread_labels
 from hysteresis_bench.report.study.summary import INF, NEAR, Problem
 
 SHOWN = 6
 """Optimizers that get a colour; more lines than this cannot be told apart."""
 
-FLOOR = "random-search"
 EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
 
@@ -35,7 +35,7 @@ def choose(problems: Sequence[Problem], reference: str, papers: Sequence[str]) -
     """
     present = {label for problem in problems for label in problem.labels}
     wanted = [label for label in (reference, *papers) if label in present]
-    floor = [FLOOR] if FLOOR in present and FLOOR not in wanted else []
+    floor = [RANDOM_SEARCH] if RANDOM_SEARCH in present and RANDOM_SEARCH not in wanted else []
     depth = max((len(problem.ranked) for problem in problems), default=0)
     turns = [problem.ranked[place] for place in range(depth) for problem in problems if place < len(problem.ranked)]
     best = [label for label in dict.fromkeys(turns) if label not in (*wanted, *floor)]

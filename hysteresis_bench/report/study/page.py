@@ -10,6 +10,7 @@ from typing import Any
 import pandas as pd
 
 from hysteresis_bench import stats
+from hysteresis_bench.registry import RANDOM_SEARCH
 from hysteresis_bench.report.paper import beside, claims
 from hysteresis_bench.report.paper.audit import Finding, audit
 from hysteresis_bench.report.paper.by_record import by_record, measured_loops
@@ -20,7 +21,7 @@ from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.study import tables, words
 from hysteresis_bench.report.study.closing_section import closing_in_words, closing_view
 from hysteresis_bench.report.study.determined import determined
-from hysteresis_bench.report.study.figures import FLOOR, Look, all_trials, choose, convergence, runtime
+from hysteresis_bench.report.study.figures import Look, all_trials, choose, convergence, runtime
 from hysteresis_bench.report.study.parameters_by_iteration import parameters_by_iteration
 from hysteresis_bench.report.study.stages_section import stage_views
 from hysteresis_bench.report.study.summary import EXACT, Problem, at_iterations, other_budgets, problems, summarise
@@ -182,10 +183,10 @@ def plugins(results: Results) -> Table:
 
 def chosen(looks: Mapping[str, Look], reference: str, published: Published) -> str:
     papers = [label for label in published.optimizers if label in looks and label != reference]
-    rest = [label for label in looks if label not in (reference, FLOOR, *papers)]
+    rest = [label for label in looks if label not in (reference, RANDOM_SEARCH, *papers)]
     parts = [f"the reference {reference}"] if reference in looks else []
     parts += [f"the paper's {listed(papers)}"] if papers else []
-    parts += ["random search, the floor that everybody must beat"] if FLOOR in looks else []
+    parts += ["random search, the floor that everybody must beat"] if RANDOM_SEARCH in looks else []
     parts += (
         [f"the best of each problem by median fitness, in turn, as far as colours reach: {listed(rest)}"]
         if rest

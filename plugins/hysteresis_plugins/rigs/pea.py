@@ -10,7 +10,7 @@ import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Rig
+from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.signals import Dataset, Record
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ PLAYS = 60  # ours: more change the displacement by less than the sensor resolve
 
 
 @dataclass(frozen=True)
-class PeaRig(Rig):
+class PeaRig(SteppedRig):
     """A piezoelectric stack moves a flexure-guided stage; voltage and displacement count from mid-range.
 
     Built after the bench of [PEA] (section 4.1: a P11-X100S actuator with a strain gauge, an amplifier, a data
@@ -118,6 +118,15 @@ class PeaRig(Rig):
     def plant(self, rate: float) -> Plant:
         """The rig as a sampled plant for closed loops; rate : samples a second."""
         return Plant(self, self.physics, 1.0 / rate)
+
+    @property
+    def input_limit(self) -> float:
+        return self.voltage_limit
+
+    @property
+    def noise_floor(self) -> float:
+        """RMS of the noise and of rounding to the resolution, um."""
+        return float(np.hypot(self.noise, self.resolution / np.sqrt(12.0)))
 
     @property
     def hidden(self) -> dict[str, Any]:

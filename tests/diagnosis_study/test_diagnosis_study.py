@@ -6,24 +6,16 @@ import json
 from dataclasses import asdict
 from pathlib import Path
 
-import numpy as np
 import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis_study.case import Case, compared
-from hysteresis_bench.diagnosis_study.run import (
-    FOLDER,
-    NOTHING,
-    STUDY,
-    confusion,
-    is_diagnosis_study,
-    read_cases,
-    read_diagnosis_study,
-)
+from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.results import FOLDER, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import told, write_closing_page
-from hysteresis_plugins.rigs.hidden_effects import CALIBRATED, EFFECTS, MODELS, HiddenEffects
 
 STUDIES = Path(__file__).parents[2] / "studies"
 
@@ -84,30 +76,6 @@ def test_the_confusion_matrix_counts_cases():
     assert table.at[NOTHING, NOTHING] == table.at[NOTHING, "drift"] == 1
     assert table.to_numpy().sum() == 5
     assert [case.right for case in cases] == [True, False, False, True, False, False]
-
-
-@pytest.mark.parametrize("model", MODELS)
-def test_an_effect_of_no_strength_changes_nothing_and_a_hidden_one_is_seen(model):
-    clean = HiddenEffects(model, (), draw=3, noise=0.01)
-    for name in EFFECTS:
-        if name == "resonance":
-            continue  # at least 20 ms long
-        change = clean._change(name, 1e-6) / clean._noise_rms
-        assert change < 0.7, name  # the least delay or lag is one of the fine steps
-    lagged = HiddenEffects(model, ("transport-delay",), draw=3, noise=0.01)
-    measured, truth = (rig.measure("fast", np.random.default_rng(0)).records[0].output for rig in (lagged, clean))
-    assert np.sqrt(np.mean((measured - truth) ** 2)) > 3.0 * clean._noise_rms
-    assert lagged.measure("fast", np.random.default_rng(0)).hidden.keys() == {"transport-delay", "noise"}
-
-
-def test_a_draw_is_the_same_in_every_experiment_and_goes_through_all_effects():
-    one, two = (HiddenEffects("bouc-wen", hide=2, draw=5) for _ in range(2))
-    assert one.names == two.names
-    assert len(set(one.names)) == 2
-    record, again = (rig.measure("sweep", np.random.default_rng(7)).records[0] for rig in (one, two))
-    np.testing.assert_array_equal(record.output, again.output)
-    assert {HiddenEffects("bouc-wen", hide=1, draw=draw).names[0] for draw in range(12)} == set(EFFECTS)
-    assert set(CALIBRATED) < set(HiddenEffects.experiments)
 
 
 def test_faults_of_a_study_are_told_at_once(tmp_path):

@@ -3,65 +3,68 @@
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.random import Generator, default_rng
 
+from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Model, Rig
+from hysteresis_bench.contracts import Example, HiddenForm, Hiding, Model, Response, Rig
+from hysteresis_bench.diagnosis.search.systems import place
 from hysteresis_bench.signals import Dataset, Record, Signal
-from hysteresis_plugins.models.bouc_wen import BoucWen
-from hysteresis_plugins.models.free_energy import FreeEnergy
-from hysteresis_plugins.models.jiles_atherton import JilesAtherton
 
 DURATION, SAMPLES, FINER = 3.0, 800, 8
 """s and samples of a record, at least 60 a cycle, so that samples miss little of a reversal; everything is computed
 with steps that many times finer."""
 
-LONGEST = 0.05
-"""s; the longest lag or delay, at drives of up to 4 Hz."""
+FASTEST = 4.0
+"""Hz, of the drives."""
 
 CALIBRATED = ("slow", "fast", "nested", "sweep")
 
-MODELS: dict[str, tuple[Model, float, dict[str, float]]] = {
-    "bouc-wen": (BoucWen(), 4.0, {"alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2}),
-    "jiles-atherton": (JilesAtherton(), 5000.0, {"alpha": 3e-4, "a": 1100.0, "k": 900.0, "M_s": 1.3e6, "c": 0.2}),
-    "free-energy": (FreeEnergy(), 4.0, {"M_R": 1.0, "eta": 4.0, "H_c": 1.1, "b": 1.0, "c": 0.35, "alpha": 0.6}),
-}
-"""Amplitude of the drive and parameters about which those of a draw lie; ours."""
 
-EFFECTS = (
-    "asymmetry",
-    "backlash",
-    "creep",
-    "drift",
-    "fatigue",
-    "input-lag",
-    "output-lag",
-    "periodic-disturbance",
-    "resonance",
-    "saturation",
-    "temperature-sensitivity",
-    "transport-delay",
-)
+def can_make_data() -> tuple[str, ...]:
+    """Names of the models that data can be made with: those that declare an example."""
+    loaded = {name: registry.load("models", name).loaded for name in registry.names("models")}
+    return tuple(name for name, model in loaded.items() if getattr(model, "example", None))
+
+
+def can_be_hidden(model: Model) -> tuple[str, ...]:
+    """Names of the effects that data of a model can hide: those that can be claimed and say how to hide them. Of
+    those that act inside a law only what the model offers."""
+    known = {*model.offers, *(name for name in registry.names("effects") if not registry.load("effects", name).fault)}
+    effects = {name: registry.effect(name) for name in known - {*(model.example.without if model.example else ())}}
+    return tuple(sorted(name for name, one in effects.items() if one.hidden_forms and not one.nuisance))
+
+
+def hiding(inner: Response, hidden: Mapping[str, tuple[HiddenForm, Hiding]]) -> Response:
+    """A response with formulas around it, in the order of the chain; hidden : formula and conditions by effect."""
+    for name in sorted(hidden, key=lambda name: place(name, registry.effect(name))):
+        inner = _around(inner, *hidden[name])
+    return inner
+
+
+def _around(inner: Response, form: HiddenForm, conditions: Hiding) -> Response:
+    return lambda u: form(inner, u, conditions)
 
 
 @dataclass(frozen=True)
 class HiddenEffects(Rig):
-    """One of three hysteresis models with up to three effects hidden, made by formulas and finer steps of its own.
+    """A hysteresis model with up to all effects hidden, made by formulas and finer steps of their own.
 
     Departs from the contract on purpose: the hysteresis is that of a model, so that whatever else is in the data
-    is known. The effects are written without the plugins' code: Euler steps, shifts and bodies between walls on
+    is known. The effects are made without their own code, by the first formula that each declares for this, on
     a grid eight times finer than the samples. Each is as strong as to change the output by 4 to 8 times the noise
     (RMS) beyond what another gain, another offset and a linear share of the input take up, or as strong as
     it gets; so it is to be seen, and leaving it out costs more than the noise.
 
-    model : whose hysteresis it is;  effects : what is hidden, by name; empty leaves it to `hide` and `draw`
-    hide : how many of all effects are hidden where none is named
+    model : whose hysteresis it is, of those that declare an example
+    effects : what is hidden, by name; empty leaves it to `hide` and `draw`
+    hide : how many effects are hidden where none is named;  among : which ones may be; empty: all that can be
     draw : which parameters, strengths and (where none is named) effects; the same in every experiment
     noise : standard deviation, share of the output's range; 0 draws it between 0.002 and 0.01
     """
@@ -75,18 +78,25 @@ class HiddenEffects(Rig):
         "stairs": "steps up and down, each held",
     }
 
-    model: Literal["bouc-wen", "jiles-atherton", "free-energy"] = "bouc-wen"
+    model: str = registry.BOUC_WEN
     effects: tuple[str, ...] = ()
     hide: int = 0
+    among: tuple[str, ...] = ()
     draw: int = 0
     noise: float = 0.0
 
     def __post_init__(self) -> None:
-        unknown = [name for name in self.effects if name not in EFFECTS]
+        models = [
+            name for name in registry.names("models") if getattr(registry.load("models", name).loaded, "example", None)
+        ]
+        if self.model not in models:
+            raise ValueError(f"no data can be made with the model {self.model!r}; there are: {', '.join(models)}")
+        known = can_be_hidden(self._law)
+        unknown = [name for name in (*self.effects, *self.among) if name not in known]
         if unknown:
-            raise ValueError(f"no effect {unknown[0]!r} can be hidden; there are: {', '.join(EFFECTS)}")
-        if not 0 <= self.hide <= len(EFFECTS):
-            raise ValueError(f"hide = {self.hide} must be between 0 and {len(EFFECTS)}")
+            raise ValueError(f"no effect {unknown[0]!r} can be hidden; there are: {', '.join(known)}")
+        if not 0 <= self.hide <= len(self._pool):
+            raise ValueError(f"hide = {self.hide} must be between 0 and {len(self._pool)}")
         if self.noise < 0.0:
             raise ValueError(f"noise = {self.noise} must not be negative")
 
@@ -107,9 +117,23 @@ class HiddenEffects(Rig):
         """What is hidden: one effect after the other as draws go on, and others at random beside it."""
         if self.effects or not self.hide:
             return tuple(sorted(self.effects))
-        shuffled = [str(name) for name in default_rng(sorted(MODELS).index(self.model)).permutation(EFFECTS)]
-        first = shuffled.pop(self.draw % len(EFFECTS))
+        shuffled = [str(name) for name in default_rng(self._example.stream).permutation(self._pool)]
+        first = shuffled.pop(self.draw % len(self._pool))
         return tuple(sorted([first, *map(str, self._stream("names").choice(shuffled, self.hide - 1, replace=False))]))
+
+    @cached_property
+    def _law(self) -> Model:
+        model: Model = registry.build("models", self.model)
+        return model
+
+    @property
+    def _example(self) -> Example:
+        assert self._law.example is not None
+        return self._law.example
+
+    @cached_property
+    def _pool(self) -> tuple[str, ...]:
+        return tuple(sorted(self.among)) or can_be_hidden(self._law)
 
     @cached_property
     def _noise_rms(self) -> float:
@@ -127,7 +151,7 @@ class HiddenEffects(Rig):
 
     def _stream(self, *purpose: str) -> Generator:
         """Random numbers for one purpose of this draw."""
-        return default_rng([self.draw, sorted(MODELS).index(self.model), *"|".join(purpose).encode()])
+        return default_rng([self.draw, self._example.stream, *"|".join(purpose).encode()])
 
     def _visible(self, name: str, times: float) -> float:
         """The strength that changes the output by so many times the noise."""
@@ -153,111 +177,31 @@ class HiddenEffects(Rig):
         time = np.arange(SAMPLES * FINER) * (DURATION / (SAMPLES * FINER))
         number = list(self.experiments).index(experiment)
         temperature = 22.0 + 9.0 * np.sin(2.0 * np.pi * (time / (1.3 * DURATION) + 0.37 * number))
-        return time, MODELS[self.model][1] * _DRIVES[experiment](time), temperature
+        return time, self._example.amplitude * _DRIVES[experiment](time), temperature
 
-    def _response(self, experiment: str, strengths: dict[str, float]) -> Array:
+    def _response(self, experiment: str, strengths: Mapping[str, float]) -> Array:
         """The output without noise on the fine grid, with effects of these strengths."""
-        model, amplitude, centre = MODELS[self.model]
         time, drive, temperature = self._setting(experiment)
-        step = float(time[1])
-        u = drive
-        for name in ("input-lag", "asymmetry", "backlash"):
-            if name in strengths:
-                u = _ON_INPUT[name](u, strengths[name], amplitude, step, self._stream(name, "more").random(3))
+        amplitude, p = self._example.amplitude, self._values
+
+        def bare(u: Array) -> Array:
+            return self._law.simulate(Signal(time, np.ascontiguousarray(u[:, None])), p)[:, 0]
+
+        top = float(bare(np.linspace(0.0, amplitude, time.size))[-1])
+        hidden = {}
+        for name, strength in strengths.items():
+            free = tuple(self._stream(name, "more").random(3).tolist())
+            given = Hiding(strength, free, time, drive, temperature, float(time[1]), DURATION, FASTEST, amplitude, top)
+            hidden[name] = (registry.effect(name).hidden_forms[0], given)
+        return hiding(bare, hidden)(drive)
+
+    @cached_property
+    def _values(self) -> Any:
+        """The model's parameters, (1,) each."""
+        centre = self._example.parameters
         shares = self._stream("parameters").uniform(0.85, 1.15, len(centre))
         values = {name: np.array([value * share]) for (name, value), share in zip(centre.items(), shares, strict=True)}
-        p: Any = namedtuple("Values", list(values))(**values)
-        y = model.simulate(Signal(time, np.ascontiguousarray(u[:, None])), p)[:, 0]
-        top = model.simulate(Signal(time, np.linspace(0.0, amplitude, time.size)[:, None]), p)[-1, 0]
-        given = _Given(time, drive, temperature, step, amplitude, float(top))
-        for name in _ON_OUTPUT:
-            if name in strengths:
-                y = _ON_OUTPUT[name](y, strengths[name], given, self._stream(name, "more").random(3))
-        return y
-
-
-@dataclass(frozen=True)
-class _Given:
-    """What effects on the output may depend on; top : the output at the largest drive."""
-
-    time: Array
-    drive: Array
-    temperature: Array
-    step: float
-    amplitude: float
-    top: float
-
-
-def _lagged(x: Array, constant: float, step: float) -> Array:
-    """First order, explicit Euler with the mean of both ends."""
-    share, state = step / max(constant, step), float(x[0])
-    out = np.empty_like(x)
-    out[0] = state
-    for k in range(1, x.size):
-        state += share * (0.5 * (x[k] + x[k - 1]) - state)
-        out[k] = state
-    return out
-
-
-def _between_walls(u: Array, half: float) -> Array:
-    """A body that is pushed by two walls around it."""
-    out, body = np.empty_like(u), float(u[0])
-    for k, middle in enumerate(u.tolist()):
-        body = float(np.clip(body, middle - half, middle + half))
-        out[k] = body
-    return out
-
-
-def _sprung(x: Array, period: float, damping: float, step: float) -> Array:
-    """A mass on a spring and damper, semi-implicit Euler in ten parts of a step."""
-    omega, place, speed = 2.0 * np.pi / period, float(x[0]), 0.0
-    out, part = np.empty_like(x), step / 10.0
-    out[0] = place
-    for k in range(1, x.size):
-        for j in range(10):
-            target = x[k - 1] + (x[k] - x[k - 1]) * (j + 0.5) / 10.0
-            speed += part * (omega**2 * (target - place) - 2.0 * damping * omega * speed)
-            place += part * speed
-        out[k] = place
-    return out
-
-
-def _crept(y: Array, s: float, g: _Given, r: Array) -> Array:
-    late = 0.6 * s / 3.0
-    times = 0.04 * 8.0 ** r[0] * np.array([0.3, 1.0, 3.0])
-    return (1.0 - 3.0 * late) * y + late * sum(_lagged(y, float(tau), g.step) for tau in times)
-
-
-def _shifted(y: Array, s: float, g: _Given, r: Array) -> Array:
-    late = max(1, round(LONGEST * s / g.step))
-    return np.concatenate([np.full(late, y[0]), y[:-late]])
-
-
-def _tired(y: Array, s: float, g: _Given, r: Array) -> Array:
-    path = np.append(0.0, np.cumsum(np.abs(np.diff(g.drive)))) / (40.0 * g.amplitude)
-    return y * np.exp2(-3.0 * s * path)
-
-
-def _hummed(y: Array, s: float, g: _Given, r: Array) -> Array:
-    return y + 0.3 * s * g.top * np.cos(2.0 * np.pi * ((11.0 + 25.0 * r[0]) * g.time + r[1]))
-
-
-_ON_INPUT: dict[str, Callable[[Array, float, float, float, Array], Array]] = {
-    "input-lag": lambda u, s, amplitude, step, r: _lagged(u, LONGEST * s, step),
-    "asymmetry": lambda u, s, amplitude, step, r: u * (1.0 + np.sign(r[0] - 0.5) * 0.45 * s * u / amplitude),
-    "backlash": lambda u, s, amplitude, step, r: _between_walls(u, 0.25 * s * amplitude),
-}
-_ON_OUTPUT: dict[str, Callable[[Array, float, _Given, Array], Array]] = {
-    "saturation": lambda y, s, g, r: np.tanh(2.0 * s * y / g.top) * g.top / (2.0 * s),
-    "fatigue": _tired,
-    "temperature-sensitivity": lambda y, s, g, r: y * (1.0 + 0.04 * s * (g.temperature - 20.0)),
-    "creep": _crept,
-    "output-lag": lambda y, s, g, r: _lagged(y, LONGEST * s, g.step),
-    "resonance": lambda y, s, g, r: _sprung(y, 0.02 + 0.18 * s, 0.1 + 0.4 * r[0], g.step),
-    "transport-delay": _shifted,
-    "periodic-disturbance": _hummed,
-    "drift": lambda y, s, g, r: y + s * g.top * g.time / DURATION,
-}
+        return namedtuple("Values", list(values))(**values)
 
 
 def _stairs(time: Array) -> Array:
@@ -265,7 +209,8 @@ def _stairs(time: Array) -> Array:
     levels = np.array([0.0, 0.6, 1.0, 0.3, -0.5, -1.0, -0.2, 0.8, -0.7, 0.0])
     starts = np.arange(1, levels.size) * DURATION / levels.size
     at = np.ravel(np.column_stack([starts, starts + 0.08]))
-    return np.interp(time, at, np.ravel(np.column_stack([levels[:-1], levels[1:]])))
+    level: Array = np.interp(time, at, np.ravel(np.column_stack([levels[:-1], levels[1:]])))
+    return level
 
 
 _DRIVES: dict[str, Callable[[Array], Array]] = {

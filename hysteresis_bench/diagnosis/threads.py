@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TypeVar
+from typing import ParamSpec, TypeVar
 
 from threadpoolctl import threadpool_limits
 
-Function = TypeVar("Function", bound=Callable)
+P = ParamSpec("P")
+T = TypeVar("T")
 
 
-def single_threaded(function: Function) -> Function:
+def single_threaded(function: Callable[P, T]) -> Callable[P, T]:
     """The function, run with one BLAS thread; processes that it forks have one, too."""
-    limited: Function = threadpool_limits.wrap(limits=1, user_api="blas")(function)
+    limited: Callable[P, T] = threadpool_limits.wrap(limits=1, user_api="blas")(function)
     return limited

@@ -10,7 +10,7 @@ from typing import Any
 
 import pandas as pd
 
-CLOSING, TOLD = "closing", "closing.json"
+CLOSING, OUTCOME = "closing", "closing.json"
 DIAGNOSIS, MODEL, RESPONSES, PAGE = "diagnosis.json", "model.json", "responses.csv", "diagnosis.html"
 DONE = "done"
 
@@ -19,7 +19,7 @@ DONE = "done"
 class Closing:
     """A finished diagnosis, or why there is none. All of it is read, nothing computed.
 
-    told : the content of closing.json: asked (specification, rig, seed), hidden (what the rig is built with,
+    outcome : the content of closing.json: asked (specification, rig, seed), hidden (what the rig is built with,
         by name), status, reason, seconds
     diagnosis : the content of diagnosis.json, empty where the status is not "done"
     units : of time, input and output
@@ -27,7 +27,7 @@ class Closing:
     page : of the whole diagnosis, relative to the results folder; None without
     """
 
-    told: Mapping[str, Any]
+    outcome: Mapping[str, Any]
     diagnosis: Mapping[str, Any]
     units: Mapping[str, str]
     responses: pd.DataFrame
@@ -35,17 +35,17 @@ class Closing:
 
     @property
     def finished(self) -> bool:
-        return bool(self.diagnosis) and self.told.get("status") == DONE
+        return bool(self.diagnosis) and self.outcome.get("status") == DONE
 
 
 def read_closing(results: Path) -> Closing | None:
     """Of a results folder; None where no diagnosis was tried."""
     folder = results / CLOSING
-    if not (folder / TOLD).is_file():
+    if not (folder / OUTCOME).is_file():
         return None
     responses = folder / RESPONSES
     return Closing(
-        _json(folder / TOLD),
+        _json(folder / OUTCOME),
         _json(folder / DIAGNOSIS),
         _json(folder / MODEL).get("units", {}),
         pd.read_csv(responses) if responses.is_file() else pd.DataFrame(),

@@ -1,0 +1,64 @@
+"""The command `list`: what is registered, what is broken and why, and the studies of this folder."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from hysteresis_bench import registry
+from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.errors import UserError, nearest
+
+KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
+
+
+@click.command("list")
+@click.argument("what", required=False)
+def list_plugins(what: str | None) -> None:
+    """List models, effects, optimizers, rigs or studies; all of them without an argument."""
+    known = (*KINDS, "studies")
+    if what is not None and what not in known:
+        raise UserError("list", f'there are no "{what}". {nearest(what, known)}')
+    console = plain_console()
+    for kind in KINDS:
+        if what in (None, kind):
+            _list_kind(kind, console)
+    if what in (None, "studies"):
+        _list_studies(console)
+
+
+def _list_kind(kind: registry.Kind, console: Console) -> None:
+    table = Table(title=kind, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
+    for name in registry.names(kind):
+        plugin = registry.load(kind, name)
+        summary = plugin.summary
+        if kind == "rigs" and plugin.loaded is not None:
+            summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
+        table.add_row(f"  {name}", escape(summary), style="red" if plugin.fault else "")
+    if kind == "effects":
+        for name, models in registry.offered().items():
+            effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]
+            table.add_row(f"  {name}", escape(f"{registry.sentence(type(effect))} For {', '.join(models)}."))
+    console.print(table)
+
+
+def _list_studies(console: Console) -> None:
+    table = Table(
+        title="studies", title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False
+    )
+    for path in sorted(Path("studies").glob("*.toml")):
+        if path.name.endswith(".published.toml"):
+            continue
+        try:
+            title = str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", ""))
+        except (OSError, tomllib.TOMLDecodeError) as error:
+            title = f"broken: {error}"
+        table.add_row(f"  {path}", escape(title))
+    if not table.row_count:
+        table.add_row("  none", "there is no folder studies/ here")
+    console.print(table)

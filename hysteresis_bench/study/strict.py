@@ -1,0 +1,110 @@
+"""Files in which no key is silently wrong: a strict form, and a good sentence on every fault of what breaks it."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+import typing
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+
+from hysteresis_bench.errors import UserError, nearest
+
+
+class Strict(BaseModel):
+    """A table of a TOML file: unknown keys are faults, and what was read does not change."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+Form = TypeVar("Form", bound=Strict)
+
+SECONDS = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0}
+
+
+def duration(text: Any) -> float:
+    """ "10 min" -> 600.0 seconds; a bare number is seconds. Raises ValueError."""
+    match = re.fullmatch(r"\s*([0-9.]+)\s*(s|sec|min|h)?\s*", str(text))
+    if not match or float(match[1]) <= 0:
+        raise ValueError(f'{text!r} is not a time such as "90 s", "10 min" or "1 h"')
+    return float(match[1]) * SECONDS[match[2] or "s"]
+
+
+Seconds = Annotated[float, BeforeValidator(duration)]
+"""A time in a TOML file, such as "10 min"."""
+
+
+def read_toml(path: Path) -> tuple[dict[str, Any], str]:
+    """The content of a TOML file, and its text. Raises UserError for a file that cannot be read."""
+    try:
+        text = path.read_text(encoding="utf-8")
+        return tomllib.loads(text), text
+    except OSError as error:
+        raise UserError(str(path), f"cannot be read: {error.strerror}.") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise UserError(str(path), f"is not valid TOML: {error}.") from error
+
+
+def tables(raw: Mapping[str, Any], key: str) -> list[dict[str, Any]]:
+    """The tables of a [[key]], as far as they are tables: what is not is a fault of form."""
+    value = raw.get(key)
+    return [entry for entry in value if isinstance(entry, dict)] if isinstance(value, list) else []
+
+
+def table(raw: Mapping[str, Any], key: str) -> dict[str, Any]:
+    """The table of a key, empty where it is none."""
+    value = raw.get(key)
+    return value if isinstance(value, dict) else {}
+
+
+def listed(raw: Mapping[str, Any], key: str) -> list[str]:
+    """The names listed under a key, none where it is no list."""
+    value = raw.get(key)
+    return [str(entry) for entry in value] if isinstance(value, list) else []
+
+
+def validated(form: type[Form], raw: Mapping[str, Any]) -> tuple[Form | None, list[str]]:
+    """Parsed TOML in its form, and no fault; or None, and a sentence on every fault with the nearest known name."""
+    try:
+        return form.model_validate(dict(raw)), []
+    except ValidationError as error:
+        return None, list(dict.fromkeys(_sentence(form, fault) for fault in error.errors()))
+
+
+def _sentence(form: type[Strict], fault: Any) -> str:
+    place = _words(fault["loc"])
+    if fault["type"] == "extra_forbidden":
+        where, key = " ".join(place[:-1]), str(fault["loc"][-1])
+        return f'{where + ": " if where else ""}no key "{key}". {nearest(key, _keys_of(form, fault["loc"][:-1]))}'
+    message = fault["msg"].removeprefix("Value error, ")
+    return f"{' '.join(place)}: {message[0].lower() + message[1:]}."
+
+
+def _words(location: tuple[int | str, ...]) -> list[str]:
+    """("optimizer", 1, "settings") -> [[optimizer]] 2, settings; ("closing", "fitted") -> [closing], fitted."""
+    words: list[str] = []
+    for index, part in enumerate(location):
+        if isinstance(part, int):
+            words[-1] = f"[[{words[-1]}]] {part + 1}" if index == 1 else f"{words[-1]} {part + 1}"
+        else:
+            table = index == 0 and len(location) > 1 and isinstance(location[1], str)
+            words.append(f"[{part}]" if table else part)
+    return words
+
+
+def _keys_of(form: type[Strict], location: tuple[int | str, ...]) -> list[str]:
+    """The keys that the table at a location may have."""
+    for part in location:
+        field = form.model_fields.get(str(part))
+        form = next(_forms_in(field.annotation), form) if field else form
+    return list(form.model_fields)
+
+
+def _forms_in(annotation: Any) -> Iterator[type[Strict]]:
+    if isinstance(annotation, type) and issubclass(annotation, Strict):
+        yield annotation
+    for argument in typing.get_args(annotation):
+        yield from _forms_in(argument)
