@@ -1,10 +1,10 @@
-"""Write an effect, registered in examples/pyproject.toml, and fit a model with and without it."""
+"""Write an effect, registered in examples/pyproject.toml, fit with and without it, and find it."""
 
 from dataclasses import dataclass, replace
 
 from scipy.integrate import cumulative_trapezoid
 
-from hysteresis_bench import FitOptions, fit, measure
+from hysteresis_bench import FitOptions, diagnose, fit, measure
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 
@@ -27,10 +27,10 @@ class Leakage(Effect):
 
 
 if __name__ == "__main__":
-    data = measure("hidden-effects", "slow", seed=1)
+    data = measure("hidden-effects", "slow", "fast", "nested", seed=1)
     data = data.map(lambda record: replace(record, output=record.output + 0.3 * charge(record.time, record.input)))
     for effects in ([], ["leakage"]):
         result = fit(data, "bouc-wen", effects, options=FitOptions(budget=4000, seed=1))
-        error, noise = float(result.records["rmse"].iloc[0]), data.hidden["noise"]
-        print(f"{' and '.join(['bouc-wen', *effects]):24} leaves {error / noise:.3g} times the noise")
-    print(f"conductance {result.parameters.set_index('name').loc['leakage.conductance', 'value']:.3f}, hidden 0.300")
+        times = result.model.error["fitted"]["rmse"] / data.hidden["noise"]
+        print(f"{' and '.join(['bouc-wen', *effects]):24} leaves {times:.3g} times the noise")
+    print(diagnose(data, "bouc-wen", seed=1, jobs=1).headline)  # the diagnosis knows it too
