@@ -172,7 +172,10 @@ def control(
 
     fitted = model if isinstance(model, FittedModel) else read_model(Path(model))
     given = {name: value for name, value in (("rate", rate), ("amplitude", amplitude)) if value is not None}
-    built = stepped_rig(rig)
+    try:
+        built = stepped_rig(rig)
+    except ValueError as error:
+        raise UserError("control", str(error)) from None
     try:
         return compare(fitted, built, rig, seed=seed, **given)
     except ValueError as error:

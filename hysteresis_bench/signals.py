@@ -142,6 +142,24 @@ class Dataset:
             raise ValueError(f"no record {unknown[0]!r}; there are: {', '.join(self.names)}")
         return replace(self, held_out_names=tuple(held_out))
 
+    def _repr_html_(self) -> str:
+        """For a notebook: a row a record."""
+        import pandas as pd
+
+        rows = [
+            {
+                "record": record.name,
+                "role": "held-out" if record.name in self.held_out_names else "fitted",
+                "samples": record.time.size,
+                "history": record.history,
+                "duration": float(record.time[-1] - record.time[0]),
+                **{name: record.units.get(name, "1") for name in ("time", "input", "output")},
+            }
+            for record in self.records
+        ]
+        html: str = pd.DataFrame(rows).to_html(index=False, float_format="%.4g")
+        return html
+
     def map(self, change: Any) -> Dataset:
         """The data set with every record changed by change(record) -> record."""
         return replace(self, records=tuple(change(record) for record in self.records))

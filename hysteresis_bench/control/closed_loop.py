@@ -77,6 +77,7 @@ def track(
     plant: Plant,
     controller: Controller,
     forward: FeedForward,
+    *,
     reference: Reference,
     limit: float,
     rng: Generator,

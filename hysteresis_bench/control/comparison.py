@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
+from html import escape
 from typing import Any
 
 import pandas as pd
@@ -17,7 +18,6 @@ from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
-from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.seeds import generator
 
@@ -57,28 +57,35 @@ class Comparison:
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        """For a notebook: the RMS tracking error, references by controllers, and the warnings."""
+        table = self.scores.pivot_table(index="reference", columns="controller", values="t_rmse", sort=False)
+        sentences = "".join(f"<p>{escape(warning)}</p>" for warning in self.warnings)
+        return f"<p>RMS tracking error, {self.units['output']}</p>{table.to_html(float_format='%.4g')}{sentences}"
 
-def stepped_rig(name: str) -> SteppedRig:
-    """A registered rig with default settings that can be run sample by sample. Raises UserError where it cannot."""
-    faults = registry.faults("rigs", name, {})
-    if faults:
-        raise UserError("control", faults)
-    rig = registry.build("rigs", name)
-    if not isinstance(rig, SteppedRig):
-        loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
-        able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
-        raise UserError(
-            "control", f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}."
-        )
-    return rig
+
+def stepped_rig(name: str, settings: Mapping[str, Any] | None = None) -> SteppedRig:
+    """A registered rig that can be run sample by sample. Raises ValueError where it cannot, or where it is none."""
+    rig = registry.build("rigs", name, settings)
+    if isinstance(rig, SteppedRig):
+        return rig
+    loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+    able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
+    raise ValueError(f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
 
 
 def compare(
-    fitted: FittedModel, rig: SteppedRig, name: str, *, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
+    fitted: FittedModel,
+    rig: SteppedRig,
+    name: str,
+    *,
+    rate: float = RATE,
+    amplitude: float = AMPLITUDE,
+    seed: int = 0,
 ) -> Comparison:
     """Run every controller that the model allows along every reference, on the rig.
 
-    rig : a rig with a stepwise `plant(rate)` and a `voltage_limit`;  name : of the rig
+    name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
     Raises ValueError where the model has no inverse, its linear section is unstable, or the sampling is too slow.
@@ -90,7 +97,15 @@ def compare(
     for reference in published_references(amplitude, rate):
         for label, controller in controllers.items():
             rng = generator(seed, name, reference.name)
-            run = track(plant, controller, forward, reference, rig.input_limit, rng, series=label == IN_SERIES)
+            run = track(
+                plant,
+                controller,
+                forward,
+                reference=reference,
+                limit=rig.input_limit,
+                rng=rng,
+                series=label == IN_SERIES,
+            )
             key = {"reference": reference.name, "controller": label}
             floors = {"noise_floor": floor, "delay_floor": reference.delay_floor}
             scores.append(key | run.scores() | floors | {"unit": fitted.units["output"]})
@@ -160,6 +175,6 @@ def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
     if forward.linear is None:
         sentences.append(
             "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
-            "because the model does not know where the actuator resonates. Fit hammerstein for both."
+            f"because the model does not know where the actuator resonates. Fit {registry.HAMMERSTEIN} for both."
         )
     return tuple(sentences)

@@ -6,6 +6,7 @@ import json
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -53,6 +54,14 @@ class Results:
     identifiability: Mapping[str, Any]
     stages: pd.DataFrame
     closing: Closing | None = None
+
+    def _repr_html_(self) -> str:
+        """For a notebook: by problem and optimizer, the trials, how many have a result, and the median error."""
+        rows = self.trials.assign(finished=self.trials["status"].isin(FINISHED))
+        table = rows.groupby(["problem", "optimizer"], sort=False).agg(
+            trials=("trial", "size"), finished=("finished", "sum"), median_relative_rms=("relative_rms", "median")
+        )
+        return f"<p>{escape(self.study.title)}</p>{table.to_html(float_format='%.4g')}"
 
 
 def read_results(folder: Path) -> Results:

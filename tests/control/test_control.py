@@ -157,7 +157,7 @@ def test_on_a_plant_that_is_the_model_only_the_sampling_is_left():
     (reference,) = (each for each in published_references(2.0, RATE) if each.name == "sine-30-hz")
     for series in (False, True):
         plant, forward = rig.plant(RATE), feed_forward(model())
-        run = track(plant, law, forward, reference, 5.0, np.random.default_rng(0), series)
+        run = track(plant, law, forward, reference=reference, limit=5.0, rng=np.random.default_rng(0), series=series)
         errors.append(run.scores()["t_rmse"])
     assert max(errors) < 0.1 * reference.delay_floor  # half a sample of hold, less what feedback takes
 
@@ -347,6 +347,6 @@ def test_track_scores_only_past_the_history():
     reference = Reference("step", time, np.where(time > 0, 1.0, 0.0), history=100)
     law = ProportionalIntegral(section.gain, 0.0, 0.0, 1e-3)
     rng = np.random.default_rng(0)
-    run = track(StandIn().plant(1000.0), law, feed_forward(model()), reference, 5.0, rng)
+    run = track(StandIn().plant(1000.0), law, feed_forward(model()), reference=reference, limit=5.0, rng=rng)
     assert run.error.size == 100
     assert run.scores()["t_error"] < 0.5 < np.abs(reference.position - run.displacement)[:100].max()

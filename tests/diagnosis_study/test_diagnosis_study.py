@@ -78,17 +78,54 @@ def test_the_confusion_matrix_counts_cases():
     assert [case.right for case in cases] == [True, False, False, True, False, False]
 
 
+def faults_of(folder, text):
+    file = folder / "s.toml"
+    file.write_text(text)
+    with pytest.raises(UserError) as error:
+        read_diagnosis_study(file)
+    return error.value.faults
+
+
 def test_faults_of_a_study_are_told_at_once(tmp_path):
-    file = tmp_path / "s.toml"
-    file.write_text(TEXT.replace('"fast"', '"fastt"').replace('model = "bouc-wen"\nfitted', 'model = "bouc"\nfitted'))
-    with pytest.raises(UserError, match="bouc"):
-        read_diagnosis_study(file)
-    file.write_text(TEXT.replace('"fast"', '"fastt"'))
-    with pytest.raises(UserError, match="fastt"):
-        read_diagnosis_study(file)
-    file.write_text(TEXT + "sed = 1\n")
-    with pytest.raises(UserError, match="sed"):
-        read_diagnosis_study(file)
+    text = TEXT.replace('"fast"', '"fastt"').replace('model = "bouc-wen"\nfitted', 'model = "bouc"\nfitted')
+    text = text.replace("seed = 1", 'sed = 1\ntimeout = "soon"')
+    text += '\nhidden = ["creeep|drift"]\n[[bench]]\nname = "clean"\nrig = "smaa"\n'
+    faults = " ".join(faults_of(tmp_path, text))
+    for part in (
+        'no key "sed". Known: bench, kind, notes, seed, timeout, title, trials. Did you mean "seed"?',
+        "seed: field required",
+        "'soon' is not a time",
+        '[[bench]] 1: no model "bouc"',
+        'Did you mean "bouc-wen"',
+        '[[bench]] 1: fitted: rig hidden-effects has no experiment "fastt"',
+        'Did you mean "fast"',
+        '[[bench]] 1: hidden: no effect "creeep"',
+        'Did you mean "creep"',
+        '[[bench]] 2: no rig "smaa"',
+        "[[bench]] 2 model: field required",
+        'two [[bench]] are both called "clean"; give one another name.',
+    ):
+        assert part in faults, part
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (('vary = "draw"', 'vary = "drw"'), '[[bench]] 1: hidden-effects has no setting "drw"'),
+        (("fresh = ", "fresj = "), '[[bench]] 1: no key "fresj"'),
+        (('kind = "diagnosis"', 'kind = "diagnosi"'), "kind: input should be 'diagnosis'"),
+        (('fresh = ["stairs"]', 'hidden = "of the rg"'), "[[bench]] 1 hidden: input should be a valid list"),
+        (('settings = { model = "bouc-wen", noise = 0.01 }', "settings = 3"), "[[bench]] 1 settings: input should be"),
+    ],
+)
+def test_a_single_typo_is_one_sentence(tmp_path, change, sentence):
+    (fault,) = faults_of(tmp_path, TEXT.replace(*change))
+    assert fault.startswith(sentence)
+
+
+def test_a_wrong_kind_is_no_ordinary_study(tmp_path):
+    (tmp_path / "s.toml").write_text(TEXT.replace('kind = "diagnosis"', 'kind = "diagnosi"'))
+    assert is_diagnosis_study(tmp_path / "s.toml")
 
 
 def test_the_study_that_ships_is_one_of_diagnosis():

@@ -29,7 +29,7 @@ data = ["cubic.csv"]
 """
 
 
-def bench(*arguments: object, **more) -> subprocess.CompletedProcess:
+def run_command(*arguments: object, **more) -> subprocess.CompletedProcess:
     return subprocess.run([*COMMAND, *map(str, arguments)], env=ENVIRONMENT, capture_output=True, text=True, **more)
 
 
@@ -54,7 +54,7 @@ def trials(folder: Path) -> pd.DataFrame:
 def finished(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("finished")
     study = write_study(folder, ["pso", "mpso", "random-search", "scipy-least-squares"])
-    done = bench("run", study, "--jobs", 2)
+    done = run_command("run", study, "--jobs", 2)
     assert done.returncode == 0, done.stderr
     assert "report:" in done.stdout
     return folder
@@ -75,17 +75,17 @@ def test_a_finished_study_leaves_what_it_should(finished):
 
 def test_one_worker_or_two_give_the_same_bits(finished, tmp_path):
     study = write_study(tmp_path, ["pso", "mpso", "random-search", "scipy-least-squares"])
-    assert bench("run", study, "--jobs", 1).returncode == 0
+    assert run_command("run", study, "--jobs", 1).returncode == 0
     one, two = (trials(folder).drop(columns="seconds") for folder in (tmp_path, finished))
     pd.testing.assert_frame_equal(one, two, check_exact=True)
 
 
 def test_more_trials_and_optimizers_continue_the_folder(finished, tmp_path):
     study = write_study(tmp_path, ["pso", "mpso"])
-    assert bench("run", study, "--trials", 1).returncode == 0
+    assert run_command("run", study, "--trials", 1).returncode == 0
     before = trials(tmp_path)
     study = write_study(tmp_path, ["pso", "mpso", "random-search", "scipy-least-squares"])
-    assert bench("run", study).returncode == 0
+    assert run_command("run", study).returncode == 0
     after = trials(tmp_path)
     assert len(after) == 8
     kept = after.merge(before, on=["problem", "optimizer", "trial"], suffixes=("", "_before"))
@@ -108,7 +108,7 @@ def test_killed_at_a_random_moment_and_run_again(finished, tmp_path):
         time.sleep(float(rng.uniform(0.5, 6.0)))
         os.killpg(running.pid, signal.SIGKILL)
         running.wait()
-    assert bench("run", study).returncode == 0
+    assert run_command("run", study).returncode == 0
     pd.testing.assert_frame_equal(
         trials(tmp_path).drop(columns="seconds"), trials(finished).drop(columns="seconds"), check_exact=True
     )
@@ -117,7 +117,7 @@ def test_killed_at_a_random_moment_and_run_again(finished, tmp_path):
 def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
     faulty = ["raises", "returns", "empty", "outside", "hangs", "dies", "greedy", "stubborn"]
     study = write_study(tmp_path, [*(f"faulty-{name}" for name in faulty), "pso"], timeout="6 s")
-    done = bench("run", study, "--trials", 1, "--jobs", 2)
+    done = run_command("run", study, "--trials", 1, "--jobs", 2)
     assert done.returncode == 1, done.stderr
     table = trials(tmp_path).set_index("optimizer")
     expected = {
@@ -136,7 +136,7 @@ def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
         assert reason in str(table.loc[name, "reason"])
     assert table.loc["faulty-stubborn", "evaluations"] == 300
     assert "faulty-hangs" in done.stdout
-    again = bench("run", study, "--trials", 1)
+    again = run_command("run", study, "--trials", 1)
     assert again.returncode == 1
     assert len(trials(tmp_path)) == len(table)
 
@@ -153,7 +153,7 @@ def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
 def test_a_folder_of_another_study_is_refused(finished, change, told):
     study = finished / "other.toml"
     study.write_text((finished / "cubic.toml").read_text(encoding="utf-8").replace(*change), encoding="utf-8")
-    done = bench("run", study, "--out", finished / "results" / "cubic")
+    done = run_command("run", study, "--out", finished / "results" / "cubic")
     assert done.returncode == 2
     assert told in done.stderr
     assert "Traceback" not in done.stderr
@@ -161,17 +161,17 @@ def test_a_folder_of_another_study_is_refused(finished, change, told):
 
 def test_a_folder_with_other_things_in_it_is_refused(tmp_path):
     study = write_study(tmp_path, ["pso"])
-    done = bench("run", study, "--out", tmp_path)
+    done = run_command("run", study, "--out", tmp_path)
     assert done.returncode == 2
     assert "is not empty" in done.stderr
 
 
 def test_changed_data_are_another_study(finished, tmp_path):
     study = write_study(tmp_path, ["pso"])
-    assert bench("run", study, "--trials", 1).returncode == 0
+    assert run_command("run", study, "--trials", 1).returncode == 0
     with (tmp_path / "cubic.csv").open("a", encoding="utf-8") as file:
         file.write("2,0.5,0.6\n")
-    done = bench("run", study, "--trials", 1)
+    done = run_command("run", study, "--trials", 1)
     assert done.returncode == 2
     assert "cubic.csv has changed" in done.stderr
 

@@ -89,6 +89,12 @@ settings = { particels = 10 }
     [
         (("[[optimizer]]", '[[optimizer]]\nplugin = "pso"\n[[optimizer]]'), 'two [[optimizer]] are both called "pso"'),
         (('plugin = "pso"', 'plugin = "pso"\nsettings = { particles = "many" }'), "particles = 'many'"),
+        (('plugin = "pso"', 'plugin = "pso"\nsettings = 3'), "[[optimizer]] 1 settings: input should be a valid dict"),
+        (('data = ["a.csv"]', 'data = ["a.csv"]\nbounds = 3'), "[[problem]] 1 bounds: input should be a valid dict"),
+        (
+            ('data = ["a.csv"]', 'data = ["a.csv"]\neffects = "bias"'),
+            "[[problem]] 1 effects: input should be a valid list",
+        ),
         (('plugin = "pso"', 'plugin = "faulty-missing"'), "is broken"),
         (('plugin = "pso"', 'plugin = "faulty-abstract"'), "Abstract lacks search"),
         (('plugin = "pso"', 'plugin = "faulty-alien"'), "does not keep the contract Optimizer"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from typing import Any, Literal
 
 import pandas as pd
@@ -55,3 +56,21 @@ class Diagnosis:
     warnings: tuple[str, ...]
     units: Mapping[str, str]
     given_up: Fallback | None
+
+    def _repr_html_(self) -> str:
+        """For a notebook: the headline, the errors before and after, the candidates, the warnings."""
+        stages = {"before": self.before, "after": self.after}
+        errors = pd.DataFrame(
+            {
+                name: {"fitted": stage.fitted.rmse, "held out": stage.held_out.rmse if stage.held_out else None}
+                for name, stage in stages.items()
+            }
+        )
+        shown = [
+            {"effect": each.effect, "adopted": each.adopted, "RMSE": each.rmse, "left out": each.cv_rmse, "p": each.p}
+            for each in self.candidates
+            if each.applicable
+        ]
+        tables = (errors.to_html(float_format="%.4g"), pd.DataFrame(shown).to_html(index=False, float_format="%.4g"))
+        sentences = "".join(f"<p>{escape(warning)}</p>" for warning in self.warnings)
+        return f"<p>{escape(self.headline)}</p>{''.join(tables)}{sentences}"

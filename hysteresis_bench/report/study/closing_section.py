@@ -79,7 +79,7 @@ def closing_in_words(closing: Closing) -> str:
     """One sentence: the verdict, or why there is none."""
     if closing.finished:
         return f"Closing the loop: {closing.diagnosis['headline']}"
-    status, reason = closing.outcome["status"], closing.outcome["reason"]
+    status, reason = (closing.outcome[key] for key in ("status", "reason"))
     return sentence(f"The loop was not closed, the diagnosis has no result ({status}): {reason}")
 
 

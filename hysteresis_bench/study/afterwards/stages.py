@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.control.comparison import compare
+from hysteresis_bench.control.comparison import compare, stepped_rig
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.parameters import Space
@@ -137,8 +136,8 @@ def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Itera
     estimates = {name: Estimate(row["value"], row["standard_error"], row["unit"]) for name, row in found.items()}
     error = {"fitted": accuracy(whole.system, data.dataset.fitted, whole.values).as_dict()}
     fitted_model = FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
-    rig = registry.build("rigs", after.rig, after.rig_settings)
     try:
+        rig = stepped_rig(after.rig, after.rig_settings)
         scores = compare(fitted_model, rig, after.rig, seed=study.seed).scores
     except ValueError as fault:
         yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
