@@ -15,7 +15,7 @@ if __name__ == "__main__":
 
     # Records of several speeds and amplitudes; what is held out is opened once, at the end.
     data = load(*(f"{experiment}.csv" for experiment in EXPERIMENTS), held_out=["mixed"])
-    found = diagnose(data, "bouc-wen", seed=1, jobs=1)
+    found = diagnose(data, "bouc-wen")
 
     print(found.verdict, "·", found.headline)
     for candidate in found.candidates:

@@ -33,4 +33,4 @@ if __name__ == "__main__":
         result = fit(data, "bouc-wen", effects, options=FitOptions(budget=4000, seed=1))
         times = result.model.error["fitted"]["rmse"] / data.hidden["noise"]
         print(f"{' and '.join(['bouc-wen', *effects]):24} leaves {times:.3g} times the noise")
-    print(diagnose(data, "bouc-wen", seed=1, jobs=1).headline)  # the diagnosis knows it too
+    print(diagnose(data, "bouc-wen").headline)  # the diagnosis knows it too

@@ -35,5 +35,5 @@ class HalvingSearch(Optimizer):
 
 if __name__ == "__main__":
     Path("halving.toml").write_text(STUDY, encoding="utf-8")
-    results = run_study("halving.toml", jobs=1)
+    results = run_study("halving.toml")
     print(results.trials.groupby("optimizer")["relative_rms"].median().sort_values().to_string())
