@@ -88,7 +88,7 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     out.mkdir()
     begun = time.monotonic()
     ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
-    ((_, _, status, reason),) = run_tickets([ticket], run_closing, 1, LIMIT)
+    ((_, _, status, reason),) = run_tickets([ticket], run_closing, jobs=1, timeout=LIMIT)
     outcome = {
         "asked": asked,
         "hidden": hidden_names(closing_dataset(study, data)),

@@ -13,7 +13,7 @@ from hysteresis_bench.cli import Group
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.compose import System
 from hysteresis_bench.control.closed_loop import Target, track
-from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare, scores_on_rig
+from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.pi import Memory, ProportionalIntegral
@@ -133,11 +133,6 @@ def test_a_voltage_limit_is_flagged_and_stays_finite():
     assert (by_controller(found, "saturated_share").loc["ramp"] > 0.2).all()
     assert any("voltage limit cut" in told for told in found.warnings)
     assert found.responses["voltage"].abs().max() <= 1.0
-
-
-def test_a_rig_that_cannot_be_stepped_is_refused():
-    with pytest.raises(ValueError, match="sample by sample"):
-        scores_on_rig(model(), registry.build("rigs", "sma"), "sma", 0)
 
 
 def test_a_model_without_a_linear_section_has_no_sliding_mode_and_says_so():

@@ -97,7 +97,7 @@ def _advice(found: Found, ties: Sequence[Tie]) -> Advice | None:
 def _open(after: Stage, prepared: Prepared) -> list[str]:
     if not prepared.passes:
         return []
-    gap = gap_after(after.problem.system, prepared.dataset.fitted, after.values, prepared.passes)
+    gap = gap_after(after.problem.system, prepared.dataset.fitted, after.values, repeats=prepared.passes)
     return not_closed(gap, prepared.passes)
 
 

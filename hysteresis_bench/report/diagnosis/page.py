@@ -10,7 +10,7 @@ from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL, Residual
 from hysteresis_bench.diagnosis.findings.candidates import Candidate
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.words import WRONG
-from hysteresis_bench.diagnosis.search.cross_validation import CLEAR
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import LEVEL
 from hysteresis_bench.registry import DESCRIPTION
 from hysteresis_bench.report.diagnosis.before_after import (

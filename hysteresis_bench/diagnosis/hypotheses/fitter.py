@@ -13,11 +13,11 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.blocks import Blocks
-from hysteresis_bench.diagnosis.search.cross_validation import cut, left_out_errors
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.nested_test import SEARCHED, NestedTest, nested_test
-from hysteresis_bench.diagnosis.search.starts import grid
-from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import cut, left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
+from hysteresis_bench.diagnosis.hypotheses.starts import grid
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_of, split, values_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
@@ -164,7 +164,8 @@ class Fitter:
             return np.empty(0)
         start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
         optimizer = registry.build("optimizers", registry.SEARCH)
-        found = search(problem, optimizer, BUDGET, start, generator(self.seed, "diagnosis", run))
+        rng = generator(self.seed, "diagnosis", run)
+        found = search(problem, optimizer, budget=BUDGET, start=start, rng=rng)
         return problem.space.to_unit(found.values[:, None])[:, 0]
 
     def _random(self, problem: Problem, around: Array) -> Array:

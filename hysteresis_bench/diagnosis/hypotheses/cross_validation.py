@@ -38,7 +38,7 @@ def cut(records: Sequence[Record]) -> Blocks:
 def left_out_errors(problem: Problem, point: Array, blocks: Blocks, iterations: int = ITERATIONS) -> Array:
     """Errors (scored samples,) of every sample by the fit that did not count it; point : (dimension,)."""
     starts = np.repeat(point[:, None], blocks.folds, axis=1)
-    points, _ = descend(problem, starts, blocks.training, iterations)
+    points, _ = descend(problem, starts, blocks.training, iterations=iterations)
     return errors(problem, points)[np.arange(blocks.fold.size), blocks.fold]
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from hysteresis_bench.diagnosis.search.nested_test import SEARCHED, nested_test
+from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, nested_test
 
 
 def fits(rng, memory, signal=0.0, size=1500):

@@ -1,7 +1,7 @@
 """Where effects stand in the chain follows from what they declare."""
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.search.systems import place
+from hysteresis_bench.diagnosis.hypotheses.systems import place
 
 CHAIN = [
     "eddy-current",
