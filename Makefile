@@ -2,6 +2,7 @@
 PYTHON ?= python3
 TRIALS ?= 3
 STUDY  ?= studies/sma.toml
+NEWEST ?=
 BIN    := .venv/bin
 
 .PHONY: install study test test-newest docs benchmark clean
@@ -17,6 +18,7 @@ test: .venv/installed-test
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n auto
 
+# NEWEST: arguments for pytest, such as what to leave out.
 test-newest: .venv/installed
 	.ci/test-newest -n auto $(NEWEST)
 
