@@ -71,6 +71,7 @@ def diagnosis() -> Diagnosis:
         split={"fitted": ["slow", "fast"], "held_out": ["other"], "how": "held out as asked"},
         warnings=("One thing to know.", f"input-lag and transport-delay cannot be told apart: {one.reason}."),
         units=UNITS,
+        given_up=None,
     )
 
 
