@@ -10,7 +10,7 @@ from pydantic import Field, PositiveInt, model_validator
 from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.parameters import Scaling
-from hysteresis_bench.study.strict import Seconds, Strict, read_toml, validated
+from hysteresis_bench.study.strict import Seconds, Strict, read_toml, shown, validated
 from hysteresis_bench.study.study_faults import content_faults
 
 
@@ -145,8 +145,8 @@ def read_study(path: Path) -> tuple[Study, str]:
 
 def check_study(raw: dict[str, Any], where: str) -> Study:
     """A study from parsed TOML. Raises UserError telling every fault, of form and of content."""
-    study, faults = validated(Study, raw)
-    faults += content_faults(raw)
+    study, sound, faults = validated(Study, raw)
+    faults += [shown(fault) for fault in content_faults(sound)]
     if study is None or faults:
         raise UserError(where, faults)
     return study
