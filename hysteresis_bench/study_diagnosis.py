@@ -22,6 +22,7 @@ from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCO
 from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import closing_dataset
+from hysteresis_bench.study.reader import Reader
 from hysteresis_bench.study.run import Progress, run_study
 from hysteresis_bench.study.study_file import Study, read_study
 
@@ -76,7 +77,7 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     run, one that is there is kept as long as the same is asked. A failure ends no study: closing.json tells it.
     """
     asked = asked_for(study)
-    before = read_closing(results)
+    before = read_closing(Reader(results))
     if before and before.finished and before.outcome["asked"] == asked:
         return
     out = results / f"{CLOSING}.part"

@@ -223,6 +223,7 @@ def test_a_study_where_everything_failed_has_a_report_too(tmp_path):
 def test_a_folder_without_trials_is_the_users_fault(tmp_path):
     write_results(tmp_path, trials=1)
     (tmp_path / "trials.sqlite").unlink()
+    (tmp_path / "trials.csv").unlink()
     with pytest.raises(UserError, match="holds no trials"):
         write_report(tmp_path)
 

@@ -10,7 +10,7 @@ from hysteresis_bench.report.paper.published import Claim, Published
 from hysteresis_bench.report.shared.blocks import Cell, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import NONE, listed, p_equals, probability, share
-from hysteresis_bench.report.trials.metrics import metric_text
+from hysteresis_bench.report.trials.metrics import TO_SUCCESS, metric_text
 from hysteresis_bench.report.trials.problem import Problem
 
 HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "cannot tell"
@@ -33,7 +33,8 @@ def judge(published: Published, problems: list[Problem]) -> list[Judged]:
     """Every claim on every problem; p is Holm-corrected over the claims of a problem."""
     judged = []
     for problem in problems:
-        able = [claim for claim in published.claim if {claim.better, claim.worse} <= set(problem.labels)]
+        told = [claim for claim in published.claim if problem.traces or claim.metric != TO_SUCCESS]
+        able = [claim for claim in told if {claim.better, claim.worse} <= set(problem.labels)]
         samples = [
             tuple(problem.compared(label, claim.metric) for label in (claim.better, claim.worse)) for claim in able
         ]
@@ -46,8 +47,13 @@ def judge(published: Published, problems: list[Problem]) -> list[Judged]:
             judged.append(Judged(claim, problem.name, verdict, why, medians, chance, found.a12))
         judged += [
             Judged(claim, problem.name, UNDECIDED, f"{claim.better} or {claim.worse} was not run")
-            for claim in published.claim
+            for claim in told
             if claim not in able
+        ]
+        judged += [
+            Judged(claim, problem.name, UNDECIDED, "the course of the searches was not kept")
+            for claim in published.claim
+            if claim not in told
         ]
     return judged
 

@@ -18,9 +18,10 @@ from hysteresis_bench.study.results import Results
 def section(
     results: Results, problems: Sequence[Problem], papers: Sequence[str], *, looks: Mapping[str, Look], folder: Path
 ) -> Section | None:
-    """papers : the optimizers of the paper, whose parameters are drawn, too;  None where every trial failed."""
+    """papers : the optimizers of the paper, whose parameters are drawn, too;  None where every trial failed, or the
+    course of the searches was not kept."""
     drawn = drawable(problems)
-    if not drawn:
+    if not drawn or not results.traces:
         return None
     budget, reference = results.study.budget, problems[0].reference
     blocks: list[Block] = [

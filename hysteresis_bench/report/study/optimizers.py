@@ -55,7 +55,7 @@ def at_other_budgets(results: Results) -> Section | None:
 
 def at_the_papers_iterations(results: Results, here: Sequence[Problem], count: int | None) -> Section | None:
     """count : of iterations after the first swarm; None where the paper does not say."""
-    if not count or not here:
+    if not count or not here or not results.traces:
         return None
     how = (
         "An iteration costs different algorithms different numbers of evaluations, and some have none. Read from the "

@@ -61,5 +61,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
         "hysteresis-bench study",
         [section for section in sections() if section],
         [*words.answer(here, summary, judged), *ends],
+        warnings=results.damages,
+        warned="What is not here",
         contents=True,
     )

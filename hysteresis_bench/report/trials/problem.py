@@ -86,7 +86,10 @@ class Problem:
         return NEAR * self.best_known
 
     def first_below(self, label: str, trial: int, target: float) -> float:
-        """Evaluations after which a trial's best was at or below the target; inf if never."""
+        """Evaluations after which a trial's best was at or below the target; inf if never, NaN where the course of the
+        searches was not kept."""
+        if not self.traces:
+            return float("nan")
         evaluations, losses = self.traces.get((label, trial), (np.empty(0), np.empty(0)))
         hits = np.nonzero(losses <= target)[0]
         return float(evaluations[hits[0]]) if hits.size and np.isfinite(target) else INF
@@ -106,7 +109,7 @@ class Problem:
             key=lambda label: (
                 max(stats.quantile(self.values(label, "fitness"), 0.5), floor),
                 mean_ranks[label],
-                stats.quantile(self.values(label, TO_SUCCESS), 0.5),
+                stats.quantile(self.values(label, TO_SUCCESS), 0.5) if self.traces else 0.0,
                 label,
             ),
         )

@@ -88,7 +88,7 @@ def _row(problem: Problem, label: str) -> dict[str, object]:
         "success_low": low,
         "success_high": high,
         "evaluations_to_success_median": stats.quantile(reached, 0.5),
-        "expected_running_time": stats.expected_running_time(reached, spent),
+        "expected_running_time": stats.expected_running_time(reached, spent) if problem.traces else float("nan"),
         "evaluations_median": float(np.median(spent)),
         "seconds_median": stats.quantile(problem.values(label, "seconds"), 0.5),
         "mean_rank": problem.friedman.mean_ranks[problem.labels.index(label)],
