@@ -13,16 +13,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis.figures import fewer
-from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 from hysteresis_bench.signals import Dataset
-from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, RESPONSES, read_closing
+from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
 from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import closing_dataset
@@ -118,7 +114,7 @@ def hidden_names(dataset: Dataset) -> list[str]:
 
 
 def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
-    """Diagnose and write diagnosis.json, model.json, responses.csv and the page of the diagnosis."""
+    """Diagnose and write diagnosis.json, model.json and responses.csv."""
     study = Study.model_validate_json(ticket.study)
     assert study.closing is not None
     spec, out = study.closing, Path(ticket.out)
@@ -131,8 +127,4 @@ def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
     except UserError as error:
         return DiagnosisEnd("raised", " ".join(error.faults))
     write_diagnosis(out, found)
-    held_out = found.responses[found.responses["role"] == "held-out"]
-    parts = [fewer(rows) for _, rows in held_out.groupby("record", sort=False)]
-    pd.concat(parts).to_csv(out / RESPONSES, index=False, float_format="%.7g")
-    write_diagnosis_page(out, found)
     return DiagnosisEnd(DONE)

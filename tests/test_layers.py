@@ -10,8 +10,8 @@ PACKAGE = Path(hysteresis_bench.__file__).parent
 FLOORS = [
     ["cli", "__main__", "__init__"],
     ["commands"],
-    ["study_diagnosis"],
     ["report"],
+    ["study_diagnosis"],
     ["diagnosis_study"],
     ["diagnosis"],
     ["study"],

@@ -60,7 +60,7 @@ def diagnose(
     print_diagnosis(found, console)
     path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
-    page = write_diagnosis_page(path.parent, found, data)
+    page = write_diagnosis_page(path.parent)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)
 
 

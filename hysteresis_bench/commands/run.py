@@ -57,8 +57,7 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
     """A study of diagnosis; returns the exit code."""
     from hysteresis_bench.diagnosis_study.results import read_cases
     from hysteresis_bench.diagnosis_study.run import CaseProgress, run_diagnosis_study
-    from hysteresis_bench.report.diagnosis_study.page import told as answer
-    from hysteresis_bench.report.diagnosis_study.page import write_closing_page
+    from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 
     def on_progress(progress: CaseProgress) -> None:
         if case := progress.case:
@@ -71,5 +70,5 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
         raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
-    say_path(console, "report", write_closing_page(results_folder))
+    say_path(console, "report", write_diagnosis_study_page(results_folder))
     return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE

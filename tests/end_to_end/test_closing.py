@@ -13,7 +13,7 @@ from click.testing import CliRunner, Result
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.kernels.lag import lag
-from hysteresis_bench.report.shared.page import number
+from hysteresis_bench.report.shared.text import number
 from hysteresis_bench.study.study_file import check_study, read_study
 from hysteresis_bench.study_diagnosis import ClosingTicket, asked_for, run_closing
 from tests.end_to_end.test_run import run_command

@@ -9,7 +9,7 @@ import pytest
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.kernels.second_order import second_order
 from hysteresis_bench.report.paper.published import Published, check_published
-from hysteresis_bench.report.study.stages_section import stage_views
+from hysteresis_bench.report.stages.section import stage_views
 from hysteresis_bench.study.afterwards.linear_section import regressed, unstable
 from hysteresis_bench.study.afterwards.stages import FITTED, LARGEST, RMSE, STAGED, run_stages
 from hysteresis_bench.study.problems import build_problem

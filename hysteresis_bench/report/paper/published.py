@@ -7,26 +7,27 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import Field, ValidationError
 
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.strict import Strict
 from hysteresis_bench.study.study_file import read_study
 
 Kind = Literal["contradiction", "misprint", "omission", "consequence"]
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class Table(Strict):
+    """A printed table by columns; `title` as printed.
 
-
-class Table(_Strict):
-    """A printed table by columns; `title` as printed."""
+    controller : which of ours is the paper's own, of a table of tracking errors
+    """
 
     title: str
+    controller: str = ""
     columns: dict[str, list[float | str]]
 
 
-class PublishedResult(_Strict):
+class PublishedResult(Strict):
     """One printed number of one optimizer."""
 
     optimizer: str
@@ -35,7 +36,7 @@ class PublishedResult(_Strict):
     where: str
 
 
-class Implied(_Strict):
+class Implied(Strict):
     """What a printed metric implies for another one, under assumptions that the paper leaves open.
 
     arithmetic : an expression of `value` (the printed one) and of the names in `given`
@@ -49,7 +50,7 @@ class Implied(_Strict):
     says: str = ""
 
 
-class Claim(_Strict):
+class Claim(Strict):
     """A sentence of the paper as a comparison: `better` has the lower `metric`, a column of trials.csv or
     evaluations_to_success."""
 
@@ -60,7 +61,7 @@ class Claim(_Strict):
     metric: str
 
 
-class Audit(_Strict):
+class Audit(Strict):
     """A statement about what is printed, with the arithmetic that bears it out.
 
     arithmetic : an expression of [values], tables, earlier `name`s and `sample`; empty for a remark on words
@@ -77,11 +78,11 @@ class Audit(_Strict):
     expects: bool | float | None = None
     tolerance: float = 5e-3
     name: str = ""
-    sample: dict[str, tuple[float, float]] = {}
+    sample: dict[str, tuple[float, float]] = Field(default_factory=dict)
     scaling: Literal["linear", "log"] = "linear"
 
 
-class Decision(_Strict):
+class Decision(Strict):
     """What the paper leaves open, and what is done here."""
 
     where: str
@@ -89,21 +90,21 @@ class Decision(_Strict):
     decided: str
 
 
-class Published(_Strict):
+class Published(Strict):
     """A published file. `comparable` names the metrics that may be set side by side with ours, and `because`
     says why only those; `iterations` is the paper's number of iterations after the first swarm."""
 
     citation: str = ""
     because: str = ""
-    comparable: list[str] = []
+    comparable: list[str] = Field(default_factory=list)
     iterations: int | None = None
-    values: dict[str, float | list[float]] = {}
-    tables: dict[str, Table] = {}
-    result: list[PublishedResult] = []
-    implied: list[Implied] = []
-    claim: list[Claim] = []
-    audit: list[Audit] = []
-    decision: list[Decision] = []
+    values: dict[str, float | list[float]] = Field(default_factory=dict)
+    tables: dict[str, Table] = Field(default_factory=dict)
+    result: list[PublishedResult] = Field(default_factory=list)
+    implied: list[Implied] = Field(default_factory=list)
+    claim: list[Claim] = Field(default_factory=list)
+    audit: list[Audit] = Field(default_factory=list)
+    decision: list[Decision] = Field(default_factory=list)
 
     @property
     def optimizers(self) -> list[str]:
@@ -113,7 +114,7 @@ class Published(_Strict):
 
 
 def check_published(raw: Mapping[str, Any], where: str = "published.toml") -> Published:
-    """Parsed TOML -> a checked file; an empty one without a paper. Raises UserError telling every fault."""
+    """Parsed TOML -> a checked file; an empty one without a paper. Raises UserError naming every fault."""
     try:
         return Published.model_validate(dict(raw))
     except ValidationError as error:

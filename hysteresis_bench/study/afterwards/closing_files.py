@@ -23,7 +23,7 @@ class Closing:
         by name), status, reason, seconds
     diagnosis : the content of diagnosis.json, empty where the status is not "done"
     units : of time, input and output
-    responses : record, role, time, input, output, before, after of the records held out, thinned
+    responses : record, role, time, input, output, before, after, thinned; of older files the records held out only
     page : of the whole diagnosis, relative to the results folder; None without
     """
 

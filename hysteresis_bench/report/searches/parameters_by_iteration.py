@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.report.shared.page import whole
+from hysteresis_bench.report.shared.text import whole
 from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, picture
 from hysteresis_bench.study.results import Results
 
@@ -16,18 +16,18 @@ MOST = 8
 """Trials shown: more lines than this cannot be followed."""
 
 
-def parameters_by_iteration(results: Results, problem: str, label: str, folder: Path, name: str) -> Picture | None:
+def parameters_by_iteration(results: Results, problem: str, label: str, *, folder: Path, name: str) -> Picture | None:
     """Fitness and parameters of the best so far, a panel each, a line a trial; None where there is no trace."""
     traces = [trace for (where, who, _), trace in sorted(results.traces.items()) if (where, who) == (problem, label)]
     traces = [trace for trace in traces[:MOST] if trace.evaluations.size]
-    told = results.identifiability.get(problem, {})
-    if not traces or "names" not in told:
+    analysis = results.identifiability.get(problem, {})
+    if not traces or "names" not in analysis:
         return None
     spec = next(spec for spec in results.study.optimizer if spec.name == label)
     budget = results.study.budget_of(spec)
     cost = results.provenance.get("optimizers", {}).get(label, {}).get("evaluations_per_iteration")
-    units = ["" if unit == "1" else f" ({unit})" for unit in told["units"]]
-    panels = ["Fitness", *(f"{name}{unit}" for name, unit in zip(told["names"], units, strict=True))]
+    units = ["" if unit == "1" else f" ({unit})" for unit in analysis["units"]]
+    panels = ["Fitness", *(f"{name}{unit}" for name, unit in zip(analysis["names"], units, strict=True))]
     height = -(-len(panels) // COLUMNS)
 
     def draw(figure: Any) -> None:
@@ -50,4 +50,6 @@ def parameters_by_iteration(results: Results, problem: str, label: str, folder: 
     iteration = f"; an iteration is {whole(cost)} evaluations" if cost else ""
     caption = f"{problem}: fitness and parameters of the best so far by {label}, a colour a trial{iteration}. Where "
     caption += "fitness ends alike and a parameter does not, the data do not tell that parameter."
-    return picture(folder, name, (7.4, 0.5 + 1.45 * height), f"Search by {label}. {caption}", caption, draw)
+    return picture(
+        folder, name, (7.4, 0.5 + 1.45 * height), alt=f"Search by {label}. {caption}", caption=caption, draw=draw
+    )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -11,43 +10,15 @@ import numpy as np
 
 from hysteresis_bench import stats
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.registry import RANDOM_SEARCH
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, picture, spread_labels
-from hysteresis_bench.report.study.summary import INF, NEAR, Problem
-
-SHOWN = 6
-"""Optimizers that get a colour; more lines than this cannot be told apart."""
+from hysteresis_bench.report.searches.looks import Look
+from hysteresis_bench.report.shared.theme import INK, MUTED, Picture, picture, spread_labels
+from hysteresis_bench.report.trials.problem import INF, NEAR, Problem
 
 EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
 
 
-@dataclass(frozen=True)
-class Look:
-    colour: str
-    dash: str = "-"
-
-
-def choose(problems: Sequence[Problem], reference: str, papers: Sequence[str]) -> dict[str, Look]:
-    """The optimizers that are drawn, with their look, the same on every problem.
-
-    The reference, the paper's, random search, and then the best of each problem by median, in turn.
-    """
-    present = {label for problem in problems for label in problem.labels}
-    wanted = [label for label in (reference, *papers) if label in present]
-    floor = [RANDOM_SEARCH] if RANDOM_SEARCH in present and RANDOM_SEARCH not in wanted else []
-    depth = max((len(problem.ranked) for problem in problems), default=0)
-    turns = [problem.ranked[place] for place in range(depth) for problem in problems if place < len(problem.ranked)]
-    best = [label for label in dict.fromkeys(turns) if label not in (*wanted, *floor)]
-    wanted = list(dict.fromkeys(wanted))[:SHOWN]
-    coloured = wanted + best[: max(0, SHOWN - len(wanted) - len(floor))]
-    looks = {label: Look(colour) for label, colour in zip(coloured, SERIES, strict=False)}
-    if reference in looks:
-        looks[reference] = Look(looks[reference].colour, "--")
-    return looks | {label: Look(MUTED, ":") for label in floor}
-
-
-def convergence(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look], budget: int) -> Picture:
+def convergence(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look], budget: int) -> Picture:
     """Best fitness so far against evaluations: median and quartiles over the trials."""
     shown = [label for label in problem.ranked if label in looks]
     counts = np.unique(np.geomspace(1, budget, 240).astype(int))
@@ -73,7 +44,7 @@ def convergence(folder: Path, name: str, problem: Problem, looks: Mapping[str, L
     alt = f"Best fitness against evaluations on {problem.name}; lowest at the end first: {ranked}."
     caption = f"{problem.name}. Best fitness so far against evaluations, both logarithmic. Line: median over "
     caption += f"{trials} trials; band: quartiles. Failed trials count as infinitely bad."
-    return picture(folder, name, (4.6, 3.1), alt, caption, draw)
+    return picture(folder, name, (4.6, 3.1), alt=alt, caption=caption, draw=draw)
 
 
 def _finite(values: Sequence[float]) -> Array:
@@ -105,7 +76,7 @@ def _labels(axes: Any, labels: Sequence[str], places: Sequence[float], looks: Ma
         axes.text(1.045, height, label, color=colour, va="center", transform=axes.transAxes)
 
 
-def all_trials(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]) -> Picture:
+def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look]) -> Picture:
     """Every trial of every optimizer: fitness over the best known, one row an optimizer, best median on top."""
     scale = problem.best_known if 0.0 < problem.best_known < INF else 1.0
     ratios = {label: np.maximum(problem.values(label, "fitness"), problem.best_known) / scale
@@ -143,7 +114,7 @@ def all_trials(folder: Path, name: str, problem: Problem, looks: Mapping[str, Lo
     alt = f"All trials on {problem.name}. Best median first: {', '.join(ratios)}."
     caption = f"{problem.name}. Final fitness of every trial over the best known to the study. Dot: a trial; bar: "
     caption += "quartiles; tick: median; dotted: 1 % above the best known, where success begins."
-    return picture(folder, name, (4.6, 0.9 + 0.185 * len(ratios)), alt, caption, draw)
+    return picture(folder, name, (4.6, 0.9 + 0.185 * len(ratios)), alt=alt, caption=caption, draw=draw)
 
 
 def _plain_ticks(axes: Any, top: float) -> None:
@@ -155,7 +126,7 @@ def _plain_ticks(axes: Any, top: float) -> None:
     axes.xaxis.set_minor_formatter(NullFormatter())
 
 
-def runtime(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look], budget: int) -> Picture:
+def runtime(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look], budget: int) -> Picture:
     """Share of targets reached against evaluations (ECDF over trials and targets), all optimizers."""
     counts = np.unique(np.geomspace(1, budget, 200).astype(int))
     curves = {}
@@ -185,4 +156,4 @@ def runtime(folder: Path, name: str, problem: Problem, looks: Mapping[str, Look]
     )
     caption += f"{EXCESSES.size} targets from 10 times above the best known fitness down to 1 % above it. Grey: the "
     caption += "optimizers without a colour."
-    return picture(folder, name, (4.6, 3.1), alt, caption, draw)
+    return picture(folder, name, (4.6, 3.1), alt=alt, caption=caption, draw=draw)
