@@ -101,5 +101,6 @@ def test_the_rooms_that_contributing_names_are_there():
 
 def test_every_room_is_named_in_contributing():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    rooms = {path.parent.name for path in (ROOT / "hysteresis_bench").glob("*/__init__.py")}
-    assert not [room for room in rooms if f"hysteresis_bench/{room}/" not in text]
+    package = ROOT / "hysteresis_bench"
+    rooms = [path.parent for path in (*package.glob("*/__init__.py"), *package.glob("diagnosis/*/__init__.py"))]
+    assert not [room.name for room in rooms if f"{room.relative_to(ROOT).as_posix()}/" not in text]
