@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from hysteresis_bench.control.comparison import Comparison
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions as DiagnosisOptions
     from hysteresis_bench.fit.fitting import Fit
     from hysteresis_bench.fit.fitting import FitOptions as FitOptions
     from hysteresis_bench.fit.model_file import FittedModel
@@ -27,14 +28,14 @@ for _package in ("control", "fit"):
     import_module(f"{__name__}.{_package}")
 
 
+_OPTIONS = {"FitOptions": "fit.fitting", "DiagnosisOptions": "diagnosis.question"}
+
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
-        """The options of `fit`, imported when they are first asked for."""
-        if name == "FitOptions":
-            from hysteresis_bench.fit.fitting import FitOptions
-
-            return FitOptions
+        """The options of `fit` and `diagnose`, imported when they are first asked for."""
+        if name in _OPTIONS:
+            return getattr(import_module(f"{__name__}.{_OPTIONS[name]}"), name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
@@ -115,23 +116,24 @@ def fit(
 def diagnose(
     dataset: Dataset,
     model: str,
-    *,
     effects: Sequence[str] = (),
+    *,
+    settings: Mapping[str, Any] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     fixed: Mapping[str, float] | None = None,
-    seed: int = 0,
-    jobs: int | None = None,
+    options: DiagnosisOptions | None = None,
 ) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 
-    effects : known to act, around the model from the beginning
-    bounds, fixed : as of `fit`;  seed : of all searches
-    jobs : processes; default: as many as cores, at most 4
+    effects : known to act, around the model from the beginning;  settings, bounds, fixed : as of `fit`
+    options : seed, processes, and how the data are prepared, such as DiagnosisOptions(settle=True, jobs=2)
     Raises UserError telling every fault at once.
     """
     from hysteresis_bench.diagnosis.diagnose import diagnose as diagnose_records
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 
-    return diagnose_records(dataset, model, effects=effects, bounds=bounds, fixed=fixed, seed=seed, jobs=jobs)
+    asked = (settings or {}, bounds or {}, fixed or {}, options or DiagnosisOptions())
+    return diagnose_records(dataset, Question(model, effects, *asked))
 
 
 def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:

@@ -10,11 +10,13 @@ from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal
 
-from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
+from hysteresis_bench.contracts import Acts, Effect, Family, Model, Optimizer, Rig
 from hysteresis_bench.errors import nearest
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
+WORDS = {"acts": typing.get_args(Acts), "family": typing.get_args(Family)}
+"""What an effect may say of itself."""
 
 # The defaults: the only names of plugins that the framework itself knows.
 SEARCH = "pso-constriction"
@@ -82,9 +84,13 @@ def load(kind: Kind, name: str) -> Plugin:
     contract = CONTRACTS[kind]
     if not (isinstance(loaded, type) and issubclass(loaded, contract)):
         return Plugin(kind, name, distribution, None, f"{point.value} does not keep the contract {contract.__name__}")
-    declared = [attribute for attribute in contract.__annotations__ if not hasattr(loaded, attribute)]
-    if missing := sorted({*getattr(loaded, "__abstractmethods__", ()), *declared}):
+    undeclared = [attribute for attribute in contract.__annotations__ if not hasattr(loaded, attribute)]
+    if missing := sorted({*getattr(loaded, "__abstractmethods__", ()), *undeclared}):
         return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")
+    for attribute, known in WORDS.items() if kind == "effects" else ():
+        if (word := getattr(loaded, attribute)) not in known:
+            fault = f'{loaded.__name__}: no {attribute} "{word}". {nearest(word, known)}'
+            return Plugin(kind, name, distribution, None, fault)
     return Plugin(kind, name, distribution, loaded)
 
 

@@ -15,6 +15,7 @@ from typing import Any
 
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
@@ -83,7 +84,7 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     out.mkdir()
     begun = time.monotonic()
     ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
-    ((_, _, status, reason),) = run_tickets([ticket], run_closing, 1, LIMIT)
+    ((_, _, status, reason),) = run_tickets([ticket], run_closing, jobs=1, timeout=LIMIT)
     outcome = {
         "asked": asked,
         "hidden": hidden_names(closing_dataset(study, data)),
@@ -120,7 +121,9 @@ def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
     seen = closing_dataset(study, Path(ticket.data))
     blind = Dataset(seen.records, seen.held_out_names)
     try:
-        found = diagnose(blind, spec.model, settings=spec.settings, effects=spec.effects, seed=study.seed, jobs=1)
+        options = DiagnosisOptions(seed=study.seed, jobs=1)
+        asked = Question(spec.model, spec.effects, spec.settings, options=options)
+        found = diagnose(blind, asked)
     except UserError as error:
         return DiagnosisEnd("raised", " ".join(error.faults))
     write_diagnosis(out, found)

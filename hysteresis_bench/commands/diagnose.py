@@ -47,23 +47,15 @@ def diagnose(
     """Find what the model lacks in DATA.csv ...: the missing effect, the error before and after."""
     from rich.console import Console
 
+    from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
-    from hysteresis_bench.diagnosis.diagnose import diagnose as find
     from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
     dataset = load(*data, held_out=held_out, skip=skip)
-    found = find(
-        dataset,
-        model,
-        effects=effects,
-        input_offset=input_offset,
-        flip=flip,
-        settle=settle,
-        accept_terms=accept_terms,
-        seed=seed,
-        jobs=jobs,
-    )
+    options = DiagnosisOptions(seed, jobs, input_offset, flip, settle, accept_terms)
+    found = find(dataset, model, effects, options=options)
     console = Console(soft_wrap=False)
     print_diagnosis(found, console)
     path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)

@@ -95,9 +95,9 @@ class BoucWenInverse:
 
     def moved(self, point: Point, u: float) -> Point:
         """The next point, where the input is u."""
-        from hysteresis_bench.kernels.bouc_wen_inverse import moved
+        from hysteresis_bench.kernels.bouc_wen_step import moved
 
-        return Point(u, moved(point.u, point.h, u, *self._parameters))
+        return Point(u, moved(point.h, u - point.u, self.alpha * self.d, self.beta, self.gamma, self.n, np.inf))
 
     def output(self, point: Point) -> float:
         """[1] eq. (1): v = d u - h."""

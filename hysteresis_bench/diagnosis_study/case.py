@@ -66,6 +66,7 @@ class Case:
 def run_case(ticket: CaseTicket) -> Case:
     """Measure, diagnose, and compare what was claimed with what is hidden."""
     from hysteresis_bench.diagnosis.diagnose import diagnose
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 
     study = DiagnosisStudy.model_validate_json(ticket.study)
     bench = next(bench for bench in study.bench if bench.name == ticket.bench)
@@ -74,7 +75,8 @@ def run_case(ticket: CaseTicket) -> Case:
     seen = measure(rig, [*bench.fitted, *bench.held_out], *key).split(bench.held_out)
     truth = hidden_in(bench, seen)
     begun = time.monotonic()
-    found = diagnose(Dataset(seen.records, seen.held_out_names), bench.model, jobs=1)
+    blind = Dataset(seen.records, seen.held_out_names)
+    found = diagnose(blind, Question(bench.model, options=DiagnosisOptions(jobs=1)))
     seconds = time.monotonic() - begun
     rivals = {
         name: {tie.rival for tie in found.ties if tie.effect == name}

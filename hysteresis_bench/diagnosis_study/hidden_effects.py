@@ -27,7 +27,7 @@ FASTEST = 4.0
 CALIBRATED = ("slow", "fast", "nested", "sweep")
 
 
-def made() -> tuple[str, ...]:
+def can_make_data() -> tuple[str, ...]:
     """Names of the models that data can be made with: those that declare an example."""
     loaded = {name: registry.load("models", name).loaded for name in registry.names("models")}
     return tuple(name for name, model in loaded.items() if getattr(model, "example", None))

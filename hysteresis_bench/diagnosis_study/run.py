@@ -64,7 +64,8 @@ def run_diagnosis_study(
     total = done + len(missing)
     on_progress(CaseProgress(done, total, None))
     models = {bench.name: bench.model for bench in study.bench}
-    for ticket, case, status, reason in run_tickets(missing, run_case, jobs or os.cpu_count() or 1, study.timeout):
+    workers = jobs or os.cpu_count() or 1
+    for ticket, case, status, reason in run_tickets(missing, run_case, jobs=workers, timeout=study.timeout):
         ended = case or Case(ticket.bench, models[ticket.bench], ticket.number, status, reason)
         write_case(folder, ticket, ended)
         done += 1

@@ -221,12 +221,13 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         for run in (0, 1):
             key = (options.seed, "fit", run)
             start = shared_start(space.dimension, *key)
-            found.append(polish(problem, search(problem, optimizer, options.budget, start, generator(*key)).values))
+            best = search(problem, optimizer, budget=options.budget, start=start, rng=generator(*key))
+            found.append(polish(problem, best.values))
         losses = tuple(float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found)
         searched = _Searched(problem, ready, tuple(found), losses, repeats, 0.0)
         if not options.settle:
             return searched
-        gap = gap_after(system, ready.records, searched.values, repeats)
+        gap = gap_after(system, ready.records, searched.values, repeats=repeats)
         if gap < CLOSED or repeats >= MOST_REPEATS:
             return replace(searched, gap=gap)
         repeats *= 2

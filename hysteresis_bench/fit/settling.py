@@ -27,7 +27,7 @@ def open_loops(records: Sequence[Record]) -> list[str]:
     ]
 
 
-def gap_after(system: System, records: Sequence[Record], values: Array, repeats: int) -> float:
+def gap_after(system: System, records: Sequence[Record], values: Array, *, repeats: int) -> float:
     """How far the last two passes of the worst loop differ, as a fraction of the range of its output.
 
     values : (dimension,), in units;  records : preceded by `repeats` of themselves

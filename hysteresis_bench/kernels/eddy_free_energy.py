@@ -9,7 +9,7 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.eddy_current import acting
-from hysteresis_bench.kernels.free_energy import LANES, error_function
+from hysteresis_bench.kernels.free_energy import LANES, error_function, moving, played, radii
 
 # Rows of the nodes' work array: the plays' P and their share of the magnetization, each with what the last trial found.
 RADIUS, WEIGHT, STATE, TERM, NEXT_STATE, NEXT_TERM = range(6)
@@ -20,22 +20,15 @@ SCALE, SLOPE, AMPLITUDE, MOVED = range(4)
 def _advanced(of: tuple[Array, Array], z: float) -> float:
     """M where the acting field has moved on to z; the MOVED nodes of smallest radius find NEXT_STATE, NEXT_TERM."""
     nodes, s = of
-    padded = nodes.shape[1]
     h = s[SCALE] * z
-    moved = 0
-    while moved < padded and abs(h - nodes[STATE, moved]) > nodes[RADIUS, moved]:
-        moved += LANES
+    moved = moving(h, nodes[STATE], nodes[RADIUS])
     total = 0.0
     for j in range(moved):
-        high = h + nodes[RADIUS, j]
-        low = h - nodes[RADIUS, j]
-        p = nodes[STATE, j]
-        p = high if high < p else p
-        p = low if low > p else p  # (3)
+        p = played(h, nodes[RADIUS, j], nodes[STATE, j])
         nodes[NEXT_STATE, j] = p
         nodes[NEXT_TERM, j] = nodes[WEIGHT, j] * error_function(p)
         total += nodes[NEXT_TERM, j]
-    for j in range(moved, padded):
+    for j in range(moved, nodes.shape[1]):
         total += nodes[TERM, j]
     s[MOVED] = moved
     return s[SLOPE] * z + s[AMPLITUDE] * total
@@ -80,12 +73,9 @@ def eddy_magnetization(
         s[SCALE] = 1.0 / (interaction[i] * math.sqrt(2.0))
         s[SLOPE] = slope[i]
         s[AMPLITUDE] = amplitude[i]
-        for j in range(padded):
-            # the density of H_c in (1), substituted ln(H_c / mean) = 2 c (c + s), is exp(-s^2)
-            offset = offsets[min(j, offsets.size - 1)]
-            nodes[RADIUS, j] = s[SCALE] * coercive_field[i] * math.exp(2.0 * spread[i] * (spread[i] + offset))
-            nodes[STATE, j] = 0.0
-            nodes[TERM, j] = 0.0
+        radii(s[SCALE], coercive_field[i], spread[i], offsets, nodes[RADIUS])
+        nodes[STATE] = 0.0
+        nodes[TERM] = 0.0
         z = field[0, column]
         magnetized[0, i] = _advanced((nodes, s), z)
         _kept(nodes, s)

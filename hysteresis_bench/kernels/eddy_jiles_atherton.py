@@ -9,7 +9,7 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.eddy_current import acting
-from hysteresis_bench.kernels.jiles_atherton import GROWTH, MU0, advanced, first_anhysteretic
+from hysteresis_bench.kernels.jiles_atherton import MU0, advanced, extrapolated, first_anhysteretic
 
 # Parameters and state of one particle, as in `jiles_atherton`; the NEXT ones are where the last trial ended.
 ALPHA, A, K, M_S, C, CLAMPED, FIELD, LAST, MI, D, M, RISE_D, RISE_M, NEXT_MI, NEXT_D, NEXT_M = range(16)
@@ -22,9 +22,8 @@ def _response(s: Array, z: float) -> float:
     if dH == 0.0:
         s[NEXT_MI], s[NEXT_D], s[NEXT_M] = s[MI], s[D], s[M]
         return MU0 * (z + s[M])
-    ahead = min(dH / s[LAST], GROWTH) if dH * s[LAST] > 0.0 else 0.0
     s[NEXT_MI], s[NEXT_D], s[NEXT_M] = advanced(
-        z, abs(dH), math.copysign(1.0, dH), ahead,
+        z, abs(dH), math.copysign(1.0, dH), extrapolated(dH, s[LAST]),
         s[ALPHA], 1.0 / s[A], s[ALPHA] * s[M_S] / s[A], s[K], s[M_S], s[C],
         s[MI], s[D], s[M], s[RISE_D], s[RISE_M], s[CLAMPED] != 0.0,
     )  # fmt: skip

@@ -64,6 +64,36 @@ def error_function(x: float) -> float:
     return x * numerator / denominator
 
 
+@njit(inline="always", error_model="numpy")
+def radii(scale, coercive_field, spread, offsets, radius):  # type: ignore[no-untyped-def]
+    """Half-widths of the plays times `scale`, rising; the padding at the end of `radius` repeats the last."""
+    for j in range(radius.size):
+        # the density of H_c in (1), substituted ln(H_c / mean) = 2 c (c + s), is exp(-s^2)
+        offset = offsets[min(j, offsets.size - 1)]
+        radius[j] = scale * coercive_field * math.exp(2.0 * spread * (spread + offset))
+
+
+@njit(inline="always", error_model="numpy")
+def moving(h, state, radius):  # type: ignore[no-untyped-def]
+    """How many plays the field h moves, in groups of LANES.
+
+    A play is 1-Lipschitz in its radius, so the ones that move are the ones of smallest radius.
+    """
+    moved = 0
+    while moved < state.size and abs(h - state[moved]) > radius[moved]:
+        moved += LANES
+    return moved
+
+
+@njit(inline="always", error_model="numpy")
+def played(h, radius, p):  # type: ignore[no-untyped-def]
+    """(3): where the field h takes a play that is at p."""
+    high = h + radius
+    low = h - radius
+    p = high if high < p else p
+    return low if low > p else p
+
+
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
 def magnetization(
     field: Array,
@@ -99,27 +129,17 @@ def magnetization(
     magnetized = np.empty((samples, swarm))
     for i in range(swarm):
         scale = 1.0 / (interaction[i] * math.sqrt(2.0))
-        for j in range(padded):
-            # the density of H_c in (1), substituted ln(H_c / mean) = 2 c (c + s), is exp(-s^2)
-            offset = offsets[j] if j < nodes else offsets[nodes - 1]
-            radius[j] = scale * coercive_field[i] * math.exp(2.0 * spread[i] * (spread[i] + offset))
-            state[j] = 0.0
-            term[j] = 0.0
+        radii(scale, coercive_field[i], spread[i], offsets, radius)
+        state[:] = 0.0
+        term[:] = 0.0
         column = i if field.shape[1] > 1 else 0
         switched = 0.0
         for k in range(samples):
             h = scale * field[k, column]
-            # A play is 1-Lipschitz in its radius, so the ones that move are the ones of smallest radius.
-            moved = 0
-            while moved < padded and abs(h - state[moved]) > radius[moved]:
-                moved += LANES
+            moved = moving(h, state, radius)
             if moved > 0:
                 for j in range(moved):
-                    p = state[j]
-                    high = h + radius[j]
-                    low = h - radius[j]
-                    p = high if high < p else p
-                    p = low if low > p else p  # (3)
+                    p = played(h, radius[j], state[j])
                     state[j] = p
                     term[j] = weight[j] * error_function(p)
                 switched = 0.0

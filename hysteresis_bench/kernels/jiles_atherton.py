@@ -20,7 +20,6 @@ the last two samples, then corrected by one Newton step that evaluates (11) and 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 
 import numpy as np
 from numba import njit
@@ -61,13 +60,19 @@ def first_anhysteretic(H: float, alpha: float, a: float, M_s: float, c: float) -
     return Ma
 
 
+@njit(inline="always", error_model="numpy")
+def extrapolated(dH, last):  # type: ignore[no-untyped-def]
+    """How far to extrapolate the last changes: dH over the last dH where the direction is kept, else 0."""
+    return min(dH / last, GROWTH) if dH * last > 0.0 else 0.0
+
+
 # forceinline: a call in the innermost loop would keep it from being vectorised.
 @njit(cache=True, error_model="numpy", fastmath={"contract"}, forceinline=True)
 def advanced(H, h, delta, ahead, alpha, inverse_a, pull, k, M_s, c, Mi, D_, M_, rise_D, rise_M, clamped):  # type: ignore[no-untyped-def]
     """One particle, one sample on to H: the new Mi, D, M.
 
     h, delta : |dH| > 0 and its sign (6)
-    ahead : dH over the last dH where the direction is kept, else 0: how far to extrapolate
+    ahead : `extrapolated(dH, last dH)`
     clamped : a constant where it is called, so that neither treatment of reversal costs the other anything
     """
     M_ahead = M_ + ahead * rise_M
@@ -99,80 +104,94 @@ def advanced(H, h, delta, ahead, alpha, inverse_a, pull, k, M_s, c, Mi, D_, M_, 
     return Mi, D_, Mi + c * D_
 
 
-def _compiled(clamped: bool, shared: bool) -> Callable[..., Array]:
-    """The kernel for one treatment of reversal and one kind of input; neither costs the others anything."""
+# Inlined into four kernels, so that neither a treatment of reversal nor a kind of input costs the others anything.
+@njit(error_model="numpy", fastmath={"contract"}, inline="always")
+def _simulated(H, alpha, a, k, M_s, c, clamped, shared):  # type: ignore[no-untyped-def]
+    """clamped, shared : constants where it is called; the arguments and the result as in `jiles_atherton`."""
+    samples, swarm = H.shape[0], alpha.size
+    groups = (swarm + LANES - 1) // LANES
+    # A group is written whole; what it writes past the end of a row, the next row overwrites.
+    output = np.empty(samples * swarm + LANES)
+    s = np.zeros(groups * GROUP)
+    for g in range(groups):
+        for j in range(LANES):
+            o, p = g * GROUP + j, min(g * LANES + j, swarm - 1)
+            field = H[0, 0 if shared else p]
+            s[o + ALPHA] = alpha[p]
+            s[o + INVERSE_A] = 1.0 / a[p]
+            s[o + PULL] = alpha[p] * M_s[p] / a[p]
+            s[o + K] = k[p]
+            s[o + M_S] = M_s[p]
+            s[o + C] = c[p]
+            s[o + D] = first_anhysteretic(field, alpha[p], a[p], M_s[p], c[p])
+            s[o + M] = c[p] * s[o + D]
+            s[o + FIELD] = field
+            output[p] = MU0 * (field + s[o + M])
 
-    @njit(cache=True, error_model="numpy", fastmath={"contract"})
-    def kernel(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array) -> Array:
-        samples, swarm = H.shape[0], alpha.size
-        groups = (swarm + LANES - 1) // LANES
-        # A group is written whole; what it writes past the end of a row, the next row overwrites.
-        output = np.empty(samples * swarm + LANES)
-        s = np.zeros(groups * GROUP)
-        for g in range(groups):
-            for j in range(LANES):
-                o, p = g * GROUP + j, min(g * LANES + j, swarm - 1)
-                field = H[0, 0 if shared else p]
-                s[o + ALPHA] = alpha[p]
-                s[o + INVERSE_A] = 1.0 / a[p]
-                s[o + PULL] = alpha[p] * M_s[p] / a[p]
-                s[o + K] = k[p]
-                s[o + M_S] = M_s[p]
-                s[o + C] = c[p]
-                s[o + D] = first_anhysteretic(field, alpha[p], a[p], M_s[p], c[p])
-                s[o + M] = c[p] * s[o + D]
-                s[o + FIELD] = field
-                output[p] = MU0 * (field + s[o + M])
-
-        last = 0.0
-        for i in range(1, samples):
-            field = H[i, 0]
-            dH = field - H[i - 1, 0]
-            if not shared or dH != 0.0:
-                if shared:
-                    ahead = min(dH / last, GROWTH) if dH * last > 0.0 else 0.0
-                    last = dH
-                else:
-                    for g in range(groups):
-                        for j in range(LANES):
-                            s[g * GROUP + NEXT + j] = H[i, min(g * LANES + j, swarm - 1)]
+    last = 0.0
+    for i in range(1, samples):
+        field = H[i, 0]
+        dH = field - H[i - 1, 0]
+        if not shared or dH != 0.0:
+            if shared:
+                ahead = extrapolated(dH, last)
+                last = dH
+            else:
                 for g in range(groups):
                     for j in range(LANES):
-                        o = g * GROUP + j
-                        if not shared:
-                            field = s[o + NEXT]
-                            dH = field - s[o + FIELD]
-                            ahead = min(dH / s[o + LAST], GROWTH) if dH * s[o + LAST] > 0.0 else 0.0
-                        Mi, D_, M_ = advanced(
-                            field, abs(dH), math.copysign(1.0, dH), ahead,
-                            s[o + ALPHA], s[o + INVERSE_A], s[o + PULL], s[o + K], s[o + M_S], s[o + C],
-                            s[o + MI], s[o + D], s[o + M], s[o + RISE_D], s[o + RISE_M], clamped,
-                        )  # fmt: skip
-                        rise_D, rise_M = D_ - s[o + D], M_ - s[o + M]
-                        if not shared:
-                            moved = dH != 0.0
-                            s[o + FIELD] = field
-                            s[o + LAST] = dH if moved else s[o + LAST]
-                            Mi = Mi if moved else s[o + MI]
-                            D_ = D_ if moved else s[o + D]
-                            M_ = M_ if moved else s[o + M]
-                            rise_D = rise_D if moved else s[o + RISE_D]
-                            rise_M = rise_M if moved else s[o + RISE_M]
-                        s[o + MI] = Mi
-                        s[o + D] = D_
-                        s[o + M] = M_
-                        s[o + RISE_D] = rise_D
-                        s[o + RISE_M] = rise_M
+                        s[g * GROUP + NEXT + j] = H[i, min(g * LANES + j, swarm - 1)]
             for g in range(groups):
                 for j in range(LANES):
                     o = g * GROUP + j
-                    output[i * swarm + g * LANES + j] = MU0 * ((field if shared else s[o + FIELD]) + s[o + M])
-        return output[: samples * swarm].reshape(samples, swarm)
+                    if not shared:
+                        field = s[o + NEXT]
+                        dH = field - s[o + FIELD]
+                        ahead = extrapolated(dH, s[o + LAST])
+                    Mi, D_, M_ = advanced(
+                        field, abs(dH), math.copysign(1.0, dH), ahead,
+                        s[o + ALPHA], s[o + INVERSE_A], s[o + PULL], s[o + K], s[o + M_S], s[o + C],
+                        s[o + MI], s[o + D], s[o + M], s[o + RISE_D], s[o + RISE_M], clamped,
+                    )  # fmt: skip
+                    rise_D, rise_M = D_ - s[o + D], M_ - s[o + M]
+                    if not shared:
+                        moved = dH != 0.0
+                        s[o + FIELD] = field
+                        s[o + LAST] = dH if moved else s[o + LAST]
+                        Mi = Mi if moved else s[o + MI]
+                        D_ = D_ if moved else s[o + D]
+                        M_ = M_ if moved else s[o + M]
+                        rise_D = rise_D if moved else s[o + RISE_D]
+                        rise_M = rise_M if moved else s[o + RISE_M]
+                    s[o + MI] = Mi
+                    s[o + D] = D_
+                    s[o + M] = M_
+                    s[o + RISE_D] = rise_D
+                    s[o + RISE_M] = rise_M
+        for g in range(groups):
+            for j in range(LANES):
+                o = g * GROUP + j
+                output[i * swarm + g * LANES + j] = MU0 * ((field if shared else s[o + FIELD]) + s[o + M])
+    return output[: samples * swarm].reshape(samples, swarm)
 
-    return kernel
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _shared(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array) -> Array:
+    return _simulated(H, alpha, a, k, M_s, c, False, True)
 
 
-_KERNELS = {(clamped, shared): _compiled(clamped, shared) for clamped in (False, True) for shared in (False, True)}
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _shared_clamped(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array) -> Array:
+    return _simulated(H, alpha, a, k, M_s, c, True, True)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _own(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array) -> Array:
+    return _simulated(H, alpha, a, k, M_s, c, False, False)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _own_clamped(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array) -> Array:
+    return _simulated(H, alpha, a, k, M_s, c, True, False)
 
 
 def jiles_atherton(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Array, clamped: bool = False) -> Array:
@@ -190,5 +209,5 @@ def jiles_atherton(H: Array, alpha: Array, a: Array, k: Array, M_s: Array, c: Ar
     A sample that repeats the field changes nothing. Every particle is computed by the same
     instructions, so that its result depends neither on its place nor on its neighbours.
     """
-    shared = H.shape[1] == 1
-    return _KERNELS[clamped, shared](np.ascontiguousarray(H), alpha, a, k, M_s, c)
+    kernels = (_shared, _shared_clamped) if H.shape[1] == 1 else (_own, _own_clamped)
+    return kernels[clamped](np.ascontiguousarray(H), alpha, a, k, M_s, c)

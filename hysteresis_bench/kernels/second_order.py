@@ -17,14 +17,11 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-
-SAME_STEP = 1e-9
-"""Steps of the time grid that differ by less than this share count as equal."""
+from hysteresis_bench.kernels.linear_stage import followed
 
 RUNAWAY = 1e9
 """A deviation is cut at this many times the range of the input: only an unstable stage (c < 0 or k <= 0)
 comes near."""
-
 
 STEEPEST = 200.0
 """An unstable stage grows by at most e^200 a step, so that nothing overflows."""
@@ -61,6 +58,28 @@ def transition(damping: float, stiffness: float, duration: float) -> tuple[float
     return kept, sine, -stiffness * sine, cosine - half * sine, sine + damping * integral
 
 
+@njit(inline="always", error_model="numpy")
+def _prepared(stage, duration):  # type: ignore[no-untyped-def]
+    damping, stiffness, _, step, _, _ = stage
+    for j in range(stiffness.size):
+        step[0, j], step[1, j], step[2, j], step[3, j], step[4, j] = transition(damping[j], stiffness[j], duration)
+
+
+@njit(inline="always", error_model="numpy")
+def _advanced(stage, i, duration, u, y):  # type: ignore[no-untyped-def]
+    _, _, bound, step, deviation, velocity = stage
+    columns = u.shape[1]
+    for j in range(y.shape[1]):
+        now = u[i, j] if columns > 1 else u[i, 0]
+        before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
+        slope = (now - before) / duration
+        e = step[0, j] * deviation[j] + step[1, j] * velocity[j] - step[4, j] * slope
+        v = step[2, j] * deviation[j] + step[3, j] * velocity[j] + (1.0 - step[0, j]) * slope
+        deviation[j] = min(max(e, -bound), bound)
+        velocity[j] = min(max(v, -bound / duration), bound / duration)
+        y[i, j] = now + deviation[j]
+
+
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
 def second_order(time: Array, u: Array, damping: Array, stiffness: Array) -> Array:
     """The response of a swarm of stages, from static equilibrium with the first sample.
@@ -71,31 +90,9 @@ def second_order(time: Array, u: Array, damping: Array, stiffness: Array) -> Arr
     stiffness : float64[swarm]          k = (natural angular frequency)², 1/s²; infinite: y = u to the last bit
     -> float64[samples, swarm]          y, in the unit of u; finite also for an unstable stage (RUNAWAY)
     """
-    samples, columns = u.shape
     swarm = stiffness.size
+    y = np.empty((u.shape[0], swarm))
     bound = RUNAWAY * (np.max(u) - np.min(u))
-    y = np.empty((samples, swarm))
-    deviation = np.zeros(swarm)
-    velocity = np.zeros(swarm)
-    step = np.empty((5, swarm))
-    known = 0.0
-    for j in range(swarm):
-        y[0, j] = u[0, j if columns > 1 else 0]
-    for i in range(1, samples):
-        duration = time[i] - time[i - 1]
-        if abs(duration - known) > SAME_STEP * known:
-            known = duration
-            for j in range(swarm):
-                step[0, j], step[1, j], step[2, j], step[3, j], step[4, j] = transition(
-                    damping[j], stiffness[j], duration
-                )
-        for j in range(swarm):
-            now = u[i, j] if columns > 1 else u[i, 0]
-            before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
-            slope = (now - before) / duration
-            e = step[0, j] * deviation[j] + step[1, j] * velocity[j] - step[4, j] * slope
-            v = step[2, j] * deviation[j] + step[3, j] * velocity[j] + (1.0 - step[0, j]) * slope
-            deviation[j] = min(max(e, -bound), bound)
-            velocity[j] = min(max(v, -bound / duration), bound / duration)
-            y[i, j] = now + deviation[j]
+    stage = (damping, stiffness, bound, np.empty((5, swarm)), np.zeros(swarm), np.zeros(swarm))
+    followed(_prepared, _advanced, stage, time, u, y)
     return y

@@ -8,25 +8,22 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-
-SAME_STEP = 1e-9
-"""Steps of the time grid that differ by less than this share count as equal."""
+from hysteresis_bench.kernels.linear_stage import SAME_STEP
 
 ANCHOR = 32
 """After so many rotations the sinusoid is computed anew, so that rounding does not add up."""
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def sinusoid(time: Array, cosine: Array, sine: Array, frequency: Array) -> Array:
-    """cosine cos(2 pi f t) + sine sin(2 pi f t).
+def add_sinusoid(y: Array, time: Array, cosine: Array, sine: Array, frequency: Array) -> None:
+    """y + cosine cos(2 pi f t) + sine sin(2 pi f t) in place of y.
 
+    y : float64[samples, swarm]         overwritten
     time : float64[samples]             any spacing
-    cosine, sine : float64[swarm]       amplitudes; both 0: 0 exactly
+    cosine, sine : float64[swarm]       amplitudes, unit of y; both 0: y to the last bit
     frequency : float64[swarm]          f, 1 / unit of time
-    -> float64[samples, swarm]          unit of the amplitudes
     """
-    samples, swarm = time.size, frequency.size
-    y = np.empty((samples, swarm))
+    samples, swarm = y.shape
     inphase = np.empty(swarm)
     quadrature = np.empty(swarm)
     forward = np.empty(swarm)
@@ -40,16 +37,23 @@ def sinusoid(time: Array, cosine: Array, sine: Array, frequency: Array) -> Array
                 ahead = inphase[j] * forward[j] + quadrature[j] * aside[j]
                 quadrature[j] = quadrature[j] * forward[j] - inphase[j] * aside[j]
                 inphase[j] = ahead
-                y[i, j] = ahead
+                y[i, j] += ahead
         else:
             for j in range(swarm):
                 phase = 2.0 * math.pi * frequency[j] * time[i]
                 inphase[j] = cosine[j] * math.cos(phase) + sine[j] * math.sin(phase)
                 quadrature[j] = sine[j] * math.cos(phase) - cosine[j] * math.sin(phase)
-                y[i, j] = inphase[j]
+                y[i, j] += inphase[j]
             if not even:
                 known = step
                 for j in range(swarm):
                     forward[j] = math.cos(2.0 * math.pi * frequency[j] * step)
                     aside[j] = math.sin(2.0 * math.pi * frequency[j] * step)
+
+
+@njit(cache=True, error_model="numpy")
+def sinusoid(time: Array, cosine: Array, sine: Array, frequency: Array) -> Array:
+    """The sinusoids alone, float64[samples, swarm]; arguments as in `add_sinusoid`."""
+    y = np.zeros((time.size, frequency.size))
+    add_sinusoid(y, time, cosine, sine, frequency)
     return y

@@ -34,7 +34,7 @@ E = TypeVar("E", bound=Finished)
 
 
 def run_tickets(
-    tickets: Sequence[T], run: Callable[[T], E], jobs: int, timeout: float
+    tickets: Sequence[T], run: Callable[[T], E], *, jobs: int, timeout: float
 ) -> Iterator[tuple[T, E | None, str, str]]:
     """Yields (ticket, outcome or None, status, reason) as tickets finish, in no order.
 

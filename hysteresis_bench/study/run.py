@@ -62,12 +62,12 @@ def run_study(
             _run_missing(store, study, tickets, jobs or os.cpu_count() or 1, on_progress)
             table, traces = store.table(), store.traces()
     table.to_csv(folder / TRIALS, index=False)
-    staged, staged_responses = run_stages(study, table, built, path.parent)
+    staged, staged_responses = run_stages(study, table, built, folder=path.parent)
     if study.stage:
         staged.to_csv(folder / STAGES, index=False)
     parts = [responses(table, built), staged_responses]
     pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
-    determined = json.dumps(identifiability(study, table, traces, built), indent=1, allow_nan=False)
+    determined = json.dumps(identifiability(study, table, built, traces=traces), indent=1, allow_nan=False)
     (folder / IDENTIFIABILITY).write_text(determined + "\n", encoding="utf-8")
     return folder
 
@@ -96,7 +96,7 @@ def _run_missing(
     missing = [ticket for ticket in tickets if ticket.key not in present]
     done = len(tickets) - len(missing)
     on_progress(Progress(done, len(tickets), None))
-    for ticket, outcome, status, reason in run_tickets(missing, run_trial, jobs, study.timeout):
+    for ticket, outcome, status, reason in run_tickets(missing, run_trial, jobs=jobs, timeout=study.timeout):
         if outcome is None:
             seed = seed_of(*seed_key(study, ticket))[:16]
             outcome = Outcome(*ticket.key, seed=seed, status=status, reason=reason)

@@ -50,7 +50,7 @@ def run_trial(ticket: Ticket) -> Outcome:
     key = seed_key(study, ticket)
 
     begun = time.process_time()  # of this process alone: what else the machine does is not the optimizer's cost
-    found = search(problem, optimizer, budget, start, generator(*key))
+    found = search(problem, optimizer, budget=budget, start=start, rng=generator(*key))
     seconds = time.process_time() - begun
 
     fitted = accuracy(problem.system, built.dataset.fitted, found.values)

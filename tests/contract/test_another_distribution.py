@@ -8,14 +8,14 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from hysteresis_bench import registry
+from hysteresis_bench import diagnose, registry
 from hysteresis_bench.cli import main
-from hysteresis_bench.data_files import write_csv
-from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.ties import GENERIC, tie
+from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.diagnosis.search import systems
 from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects, can_be_hidden
+from hysteresis_bench.fit.fitting import fit_records
 from hysteresis_bench.signals import Dataset, joined
 
 BEND, ZERO = "output-bend", "input-zero"
@@ -53,6 +53,16 @@ def test_it_is_listed():
     assert "An even nonlinearity of the output" in told
 
 
+def test_an_effect_that_does_not_declare_itself_is_broken_and_stops_no_other(dataset):
+    assert registry.load("effects", "faulty-silent").fault == "Silent lacks acts, family"
+    assert 'Did you mean "output"?' in registry.load("effects", "faulty-misspelt").fault
+    _, impossible = Stack(registry.build("models", "bouc-wen"), dataset.records).candidates()
+    assert {name for name, reason in impossible.items() if reason.startswith("broken")} == {
+        "faulty-misspelt",
+        "faulty-silent",
+    }
+
+
 def test_it_has_its_place_in_the_chain(dataset):
     stack = Stack(registry.build("models", "bouc-wen"), dataset.records)
     order = [name for name, _ in stack.system({"drift", ZERO, BEND, "input-lag", "output-lag", "saturation"}).effects]
@@ -81,23 +91,13 @@ def test_the_rig_hides_it_and_no_nuisance(rig, dataset):
 
 
 def test_it_is_diagnosed(dataset):
-    found = diagnose(Dataset(dataset.records, dataset.held_out_names), "bouc-wen", jobs=1)
+    found = diagnose(Dataset(dataset.records, dataset.held_out_names), "bouc-wen", options=DiagnosisOptions(jobs=1))
     assert BEND in found.effects or BEND in {one.rival for one in found.ties}
     assert found.after.held_out.rmse < 0.7 * found.before.held_out.rmse
 
 
-def test_it_is_fitted_beside_the_nuisance(dataset, tmp_path):
-    shifted = [replace(record, input=record.input + 0.3) for record in dataset.fitted[:2]]
-    files = []
-    for record in shifted:
-        files.append(str(tmp_path / f"{record.name}.csv"))
-        write_csv(Path(files[-1]), Dataset((record,)))
-    out = tmp_path / "out"
-    asked = ["--model", "bouc-wen", "--effect", BEND, "--effect", ZERO, "--out", str(out)]
-    ran = CliRunner().invoke(main, ["fit", *files, *asked])
-    assert ran.exit_code == 0, ran.output
-    from hysteresis_bench.fit.model_file import read_model
-
-    fitted = read_model(out / "model.json")
+def test_it_is_fitted_beside_the_nuisance(dataset):
+    shifted = Dataset(tuple(replace(record, input=record.input + 0.3) for record in dataset.fitted[:2]))
+    fitted = fit_records(shifted, "bouc-wen", (BEND, ZERO)).model
     assert fitted.parameters[f"{ZERO}.zero"].value == pytest.approx(-0.3, abs=0.03)
     assert fitted.parameters[f"{BEND}.bend"].value > 0.0

@@ -71,6 +71,15 @@ def test_it_is_listed_with_a_sentence(name):
 
 
 @pytest.mark.parametrize("name", NAMES)
+def test_its_rivals_are_effects_and_say_nothing_else(name):
+    """A reason stands on one of two rivals, and is the end of a sentence."""
+    for rival, reason in registry.effect(name).mistaken_for.items():
+        assert not registry.effect(rival).nuisance
+        assert name not in registry.effect(rival).mistaken_for
+        assert not reason.endswith(".")
+
+
+@pytest.mark.parametrize("name", NAMES)
 def test_one_parameter_at_least_switches_it(name):
     parameters = built(name).parameters
     assert not parameters or any(parameter.null is not None for parameter in parameters)

@@ -69,11 +69,11 @@ def make(seed: int, model: str, hidden: Sequence[str] | None = None, noise: floa
     share = rng.uniform(0.002, 0.01) if noise is None else noise
     amplitude, centre = MODELS[model]
     values = {name: value * rng.uniform(0.85, 1.15) for name, value in centre.items()}
-    strengths = _drawn(rng, key, hidden)
+    drawn = _drawn(rng, key, hidden)
     tone = rng.uniform(0.9, 1.1)
     names = ["fit-1", "fit-2", "fit-3", "fit-4", *HELD_OUT, "unseen"]
     frequencies = tone * np.array([1.0, 3.0, 0.5, 6.0, 2.0, 4.0, 1.5])
-    clean = [_response(model, values, amplitude, float(f), number, strengths) for number, f in enumerate(frequencies)]
+    clean = [_response(model, values, amplitude, float(f), number, drawn) for number, f in enumerate(frequencies)]
     span = max(float(np.ptp(output)) for _, _, output, _ in clean)
     records = []
     for name, (time, drive, output, temperature) in zip(names, clean, strict=True):
@@ -101,20 +101,24 @@ def _response(
     amplitude: float,
     frequency: float,
     number: int,
-    strengths: dict[str, Array],
+    drawn: dict[str, list[float]],
 ) -> tuple[Array, Array, Array, Array]:
-    """strengths : three random numbers for each hidden effect"""
+    """drawn : a strength and two more numbers for every hidden effect"""
     time = np.linspace(0.0, CYCLES / frequency, (SAMPLES - 1) * FINER + 1)
     drive = amplitude * _drive(time * frequency, number)
     temperature = 25.0 + 10.0 * np.sin(2 * np.pi * (0.13 * number + 0.31 * time * frequency + 0.2))
     plugin, named = registry.build("models", model), _named(values)
     top, step = _largest(model, values, amplitude), float(time[1] - time[0])
     hidden = {}
-    for name, (strength, *free) in strengths.items():
-        free = (*free, strength)
-        given = Hiding(strength, free, time, drive, temperature, step, CYCLES / SLOWEST, FASTEST, amplitude, top)
+    for name, (strength, *free) in drawn.items():
+        given = Hiding(
+            strength, (*free, strength), time, drive, temperature, step, CYCLES / SLOWEST, FASTEST, amplitude, top
+        )
         hidden[name] = (registry.effect(name).hidden_forms[-1], given)
-    bare = lambda u: plugin.simulate(Signal(time, np.ascontiguousarray(u[:, None])), named)[:, 0]  # noqa: E731
+
+    def bare(u: Array) -> Array:
+        return plugin.simulate(Signal(time, np.ascontiguousarray(u[:, None])), named)[:, 0]
+
     y = hiding(bare, hidden)(drive)
     handed = slice(None, None, FINER)
     return time[handed], drive[handed], y[handed], temperature[handed]

@@ -13,16 +13,13 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Hiding
-from hysteresis_bench.diagnosis_study.hidden_effects import CALIBRATED, HiddenEffects, can_be_hidden, made
+from hysteresis_bench.diagnosis_study.hidden_effects import CALIBRATED, HiddenEffects, can_be_hidden, can_make_data
 from hysteresis_bench.signals import Signal
 from hysteresis_plugins.effects.rayleigh_hysteresis import plays
 from hysteresis_plugins.models._eddy_current_hidden import relaxed
 from tests.diagnosis.generator import EFFECTS
 
 BENCHES = tomllib.loads((Path(__file__).parents[2] / "studies" / "closing_the_loop.toml").read_text())["bench"]
-KEPT = ("bouc-wen", "free-energy", "jiles-atherton")
-"""Models of the kept study of diagnosis; its draws are among EFFECTS."""
-
 TIME = np.arange(6400) * (3.0 / 6400)
 STEP = float(TIME[1])
 DRIVE = np.sin(2.0 * np.pi * TIME) * (1.0 - 0.2 * TIME)
@@ -52,11 +49,11 @@ def test_every_effect_that_can_be_claimed_says_how_it_is_hidden():
 
 
 def test_every_model_with_an_example_has_random_numbers_of_its_own():
-    streams = [registry.build("models", name).example.stream for name in made()]
+    streams = [registry.build("models", name).example.stream for name in can_make_data()]
     assert len(set(streams)) == len(streams) >= 4
 
 
-@pytest.mark.parametrize("model", made())
+@pytest.mark.parametrize("model", can_make_data())
 def test_every_formula_makes_data_that_grow_with_the_strength(model):
     response, drive = bare(model)
     top = float(response(np.linspace(0.0, np.max(drive), TIME.size))[-1])
@@ -72,7 +69,7 @@ def test_every_formula_makes_data_that_grow_with_the_strength(model):
             assert 1e-4 * top < changes[0] < changes[1], (name, form.__name__)
 
 
-@pytest.mark.parametrize("model", made())
+@pytest.mark.parametrize("model", can_make_data())
 def test_an_effect_of_no_strength_changes_nothing_and_a_hidden_one_is_seen(model):
     clean = HiddenEffects(model, (), draw=3, noise=0.01)
     for name in can_be_hidden(registry.build("models", model)):

@@ -77,6 +77,16 @@ def test_agrees_with_a_tight_ode_solution(amplitude):
     assert error < 1e-10 * np.ptp(reference)
 
 
+@pytest.mark.parametrize("steps", [1.0, 30.0, 300.0])
+def test_steps_on_which_an_exponential_overflows_agree_with_the_plain_twin(steps):
+    """gamma - beta = 7: after a reversal h grows by up to e^2100 a sample, were it not to cross 0."""
+    u = np.random.default_rng(6).uniform(-steps, steps, (100, 1))
+    expected = twin(u[:, 0], 0.3, 0.5, 7.5, 1.3)
+    for inputs in (u, np.repeat(u, 2, axis=1)):
+        found = bouc_wen(inputs, *columns((0.3, 0.5, 7.5, 1.3), (0.3, 0.5, 7.5, 1.3)))
+        assert np.abs(found - expected[:, None]).max() < 1e-13 * np.ptp(expected)
+
+
 @pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
 def test_other_powers_agree_with_a_tight_ode_solution(n):
     u = sine(600)

@@ -107,7 +107,6 @@ def test_a_coefficient_of_zero_is_the_kernel_without(name):
     ("model", "step"), [(JilesAtherton(), 500.0), (JilesAthertonClamped(), 500.0), (BoucWen(), 1.0)]
 )
 def test_so_it_is_all_over_the_box(model, step):
-    """Jiles-Atherton's step is written a second time for one particle: it must stay the same step."""
     rng = np.random.default_rng(8)
     H = step * np.cumsum(rng.normal(size=(80, 1)), axis=0)
     H[30:33] = H[30]

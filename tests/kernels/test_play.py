@@ -18,6 +18,18 @@ def test_it_agrees_with_a_plain_dead_band():
     assert np.array_equal(play(u[:, None], np.array([1.3]))[:, 0], expected)
 
 
+def test_one_play_of_a_swarm_equals_a_plain_loop_to_the_last_bit():
+    rng = np.random.default_rng(5)
+    u, radii = np.cumsum(rng.normal(size=400)), np.array([0.0, 0.3, 5.0])
+    swarm = play(u[:, None], radii)
+    for j, radius in enumerate(radii.tolist()):
+        position, expected = u[0], []
+        for value in u.tolist():
+            position = max(value - radius, min(value + radius, position))
+            expected.append(position)
+        assert np.array_equal(swarm[:, j], expected)
+
+
 def test_a_closed_cycle_encloses_the_area_of_its_dead_band():
     u = np.concatenate([np.linspace(0, 1, 101), np.linspace(1, -1, 201), np.linspace(-1, 1, 201)])
     radius = 0.2

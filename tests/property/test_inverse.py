@@ -7,7 +7,6 @@ from hypothesis import strategies as st
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.control.inverse import BoucWenInverse, Point
-from hysteresis_bench.kernels.bouc_wen import STEEPEST
 from hysteresis_bench.signals import Signal
 from hysteresis_plugins.models.bouc_wen import BoucWen
 
@@ -30,8 +29,6 @@ def forward(inverse, u):
 def round_trip(inverse, v):
     u = inverse.input_for(v)
     assert np.isfinite(u).all()
-    # beyond, the forward kernel cuts the rate (STEEPEST) and is no longer the equation's solution
-    assume((inverse.gamma - inverse.beta) * np.abs(np.diff(u)).max() < STEEPEST)
     return np.abs(forward(inverse, u) - v).max()
 
 
@@ -43,11 +40,11 @@ def test_coarse_steps_and_reversals_come_back(drawn, steps):
 
 
 def test_steps_of_many_relaxation_lengths_come_back():
-    """gamma - beta times the largest step is 150 here: h falls to 0 within a small part of a sample."""
+    """e^(gamma - beta times the largest step) overflows here: h falls to 0 within a small part of a sample."""
     inverse = BoucWenInverse(0.61, 0.35, 4.25, 0.44)
-    v = np.random.default_rng(0).uniform(-10, 10, 200)
+    v = np.random.default_rng(0).uniform(-100, 100, 200)
     u = inverse.input_for(v)
-    assert 100 < (inverse.gamma - inverse.beta) * np.abs(np.diff(u)).max() < STEEPEST
+    assert (inverse.gamma - inverse.beta) * np.abs(np.diff(u)).max() > 1000
     assert np.abs(forward(inverse, u) - v).max() < 1e-9
 
 
@@ -70,7 +67,6 @@ def test_any_smoothness_comes_back(drawn, steps, n):
 @settings(max_examples=60, deadline=None)
 def test_inputs_come_back_too(drawn, steps):
     inverse, u = invertible(drawn), np.array(steps)
-    assume((inverse.gamma - inverse.beta) * np.abs(np.diff(u)).max() < STEEPEST)
     np.testing.assert_allclose(inverse.input_for(forward(inverse, u)), u, rtol=0, atol=1e-8)
 
 

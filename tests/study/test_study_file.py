@@ -93,7 +93,7 @@ settings = { particels = 10 }
         (('data = ["a.csv"]', 'data = ["a.csv"]\nbounds = 3'), "[[problem]] 1 bounds: input should be a valid dict"),
         (
             ('data = ["a.csv"]', 'data = ["a.csv"]\neffects = "bias"'),
-            "[[problem]] 1 effects: input should be a valid list",
+            "1 effects: input should be a valid list",
         ),
         (('plugin = "pso"', 'plugin = "faulty-missing"'), "is broken"),
         (('plugin = "pso"', 'plugin = "faulty-abstract"'), "Abstract lacks search"),

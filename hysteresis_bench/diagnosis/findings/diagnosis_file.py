@@ -19,7 +19,9 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
-from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
+from hysteresis_bench.diagnosis.findings.candidates import Candidate
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.words import WRONG
 from hysteresis_bench.diagnosis.search.cross_validation import CLEAR
@@ -96,6 +98,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "offset_of_both": offset if offset and list(content["effects"]) != [offset] else None,
         "equation": left,
         "experiment": None,
+        "given_up": None,
     }
     candidates = [
         {"judgement": _judgement(c["adopted"], c["tied_with"], c["p_value"], c["advantage"]), **c}
@@ -110,6 +113,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     noise_rms : of the noise;  floor : RMS from which anything is judged, a little above it
     doubtful : is so much left that the names may stand in for something else?
     described : those of the effects that describe what was left, and explain nothing
+    given_up : what had been selected, and predicted excitations left out worse than the bare model
     offset_of_both : the offset, where the system before has it as the one after has
     """
     offset = diagnosis.offset
@@ -131,6 +135,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "residual": {"before": _tests(diagnosis.before.tests), "after": _tests(diagnosis.after.tests)},
         "waterfall": [{"system": label, "rmse": rmse} for label, rmse in diagnosis.waterfall],
         "candidates": [_candidate(candidate) for candidate in diagnosis.candidates],
+        "given_up": asdict(diagnosis.given_up) if diagnosis.given_up else None,
         "ties": [asdict(tie) for tie in diagnosis.ties],
         "hysteresis": {
             "needed": diagnosis.memory.needed,

@@ -8,11 +8,11 @@ once, as chains of one swarm, from the fit to all samples.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.blocks import Blocks, blocked
 from hysteresis_bench.fit.least_squares import descend, errors
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.signals import Record
@@ -28,35 +28,17 @@ CLEAR = 2.0
 """Standard errors by which one system must be better."""
 
 
-@dataclass(frozen=True, eq=False)
-class Blocks:
-    """block : (scored samples,) number of every sample's block;  fold : likewise."""
-
-    block: Array
-    fold: Array
-
-    @property
-    def training(self) -> Array:
-        """(scored samples, folds), 1 where a sample counts for a fold's fit."""
-        return (self.fold[:, None] != np.arange(FOLDS)).astype(float)
-
-
 def cut(records: Sequence[Record]) -> Blocks:
     """Blocks of the records' scored samples."""
     samples = np.array([record.measured.size for record in records])
     counts = np.maximum(FOLDS, np.rint(BLOCKS * samples / samples.sum() / FOLDS).astype(int) * FOLDS)
-    own = [np.arange(size) * count // size for size, count in zip(samples, counts, strict=True)]
-    first = np.cumsum([0, *counts[:-1]])
-    block = np.concatenate([part + start for part, start in zip(own, first, strict=True)])
-    # shifted by one from group to group: a fold must not always be the same phase of the input's cycle
-    fold = np.concatenate([(part + part // FOLDS + number) % FOLDS for number, part in enumerate(own)])
-    return Blocks(block, fold)
+    return blocked(samples.tolist(), counts.tolist(), FOLDS, turn=1, shift=1)
 
 
-def left_out_errors(problem: Problem, point: Array, blocks: Blocks) -> Array:
+def left_out_errors(problem: Problem, point: Array, blocks: Blocks, iterations: int = ITERATIONS) -> Array:
     """Errors (scored samples,) of every sample by the fit that did not count it; point : (dimension,)."""
-    starts = np.repeat(point[:, None], FOLDS, axis=1)
-    points, _ = descend(problem, starts, blocks.training, ITERATIONS)
+    starts = np.repeat(point[:, None], blocks.folds, axis=1)
+    points, _ = descend(problem, starts, blocks.training, iterations=iterations)
     return errors(problem, points)[np.arange(blocks.fold.size), blocks.fold]
 
 

@@ -8,42 +8,43 @@ from concurrent.futures import ProcessPoolExecutor
 from types import TracebackType
 from typing import Any
 
-from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
+from hysteresis_bench.diagnosis.search.fitter import Fitter
+from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
 
-_bench: Bench
+_fitter: Fitter
 
 
-class Crew:
-    """Runs methods of a bench, in order of the answers; in this process where there is one job, or no fork."""
+class Workers:
+    """Runs methods of a fitter, in order of the answers; in this process where there is one job, or no fork."""
 
-    def __init__(self, bench: Bench, jobs: int) -> None:
-        self._bench = bench
+    def __init__(self, fitter: Fitter, jobs: int) -> None:
+        self._fitter = fitter
         self._pool: ProcessPoolExecutor | None = None
         if jobs > 1 and "fork" in multiprocessing.get_all_start_methods():
             context = multiprocessing.get_context("fork")
             # forked, not pickled: the workers find the records where they are
-            self._pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_install, initargs=(bench,))
+            self._pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_install, initargs=(fitter,))
 
-    def __enter__(self) -> Crew:
+    def __enter__(self) -> Workers:
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if self._pool:
             self._pool.shutdown(cancel_futures=True)
 
-    def map(self, questions: Sequence[tuple[Any, ...]]) -> list[Trial]:
+    def map(self, questions: Sequence[tuple[Any, ...]]) -> list[Hypothesis]:
         """questions : (method's name, *arguments)"""
         if self._pool and len(questions) > 1:
             return list(self._pool.map(_answer, questions))
-        return [getattr(self._bench, method)(*arguments) for method, *arguments in questions]
+        return [getattr(self._fitter, method)(*arguments) for method, *arguments in questions]
 
 
-def _install(bench: Bench) -> None:
-    global _bench
-    _bench = bench
+def _install(fitter: Fitter) -> None:
+    global _fitter
+    _fitter = fitter
 
 
-def _answer(question: tuple[Any, ...]) -> Trial:
+def _answer(question: tuple[Any, ...]) -> Hypothesis:
     method, *arguments = question
-    answer: Trial = getattr(_bench, method)(*arguments)
+    answer: Hypothesis = getattr(_fitter, method)(*arguments)
     return answer

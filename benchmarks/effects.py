@@ -1,0 +1,70 @@
+"""Time of the effects' kernels, as ratios to the Bouc-Wen kernel alone in the same run.
+
+python benchmarks/effects.py
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+import numpy as np
+
+SAMPLES, PARTICLES, ROUNDS = 6000, 50, 60
+
+
+def rows() -> list[tuple[str, float, float]]:
+    """(kernel, its time over that of `bouc_wen` with a shared input, what is asked), the fastest of interleaved rounds.
+
+    The kernels in place are repeated on one array, parameters drawn so that it neither grows nor vanishes.
+    """
+    from hysteresis_bench.kernels.bouc_wen import bouc_wen
+    from hysteresis_bench.kernels.delay import delay
+    from hysteresis_bench.kernels.effects.asymmetry import bend
+    from hysteresis_bench.kernels.effects.curve_in_time import add, products, scale_and_add
+    from hysteresis_bench.kernels.effects.fatigue import fade
+    from hysteresis_bench.kernels.effects.saturation import saturate
+    from hysteresis_bench.kernels.lag import lag, late_response
+    from hysteresis_bench.kernels.play import play
+    from hysteresis_bench.kernels.second_order import second_order
+    from hysteresis_bench.kernels.sinusoid import add_sinusoid
+
+    rng = np.random.default_rng(0)
+    grid = np.linspace(0.0, 6.0, SAMPLES)
+    u = np.ascontiguousarray(2.5 * np.sin(np.pi * grid)[:, None])
+    p = rng.uniform(0.0, 2.0, (4, PARTICLES))
+    one, small = np.ones(PARTICLES), rng.normal(0.0, 1e-9, PARTICLES)
+    y = bouc_wen(u, *p)
+    own = np.repeat(u, PARTICLES, axis=1)
+    constants = rng.uniform(1e-3, 0.3, (5, PARTICLES))
+    level, sharpness = rng.uniform(0.0, 0.4, PARTICLES), rng.uniform(1.0, 20.0, PARTICLES)
+    runs: list[tuple[str, Callable[[], object], float]] = [
+        ("bouc-wen", lambda: bouc_wen(u, *p), 1.0),
+        ("bouc-wen, an input each", lambda: bouc_wen(own, *p), 1.2),
+        ("asymmetry", lambda: bend(u, small), 0.4),
+        ("backlash", lambda: play(u, constants[0]), 2.0),
+        ("lag of the input", lambda: lag(grid, u, constants[0]), 2.0),
+        ("lag of the output", lambda: lag(grid, y, constants[0]), 2.0),
+        ("delay", lambda: delay(grid, y, constants[0]), 2.0),
+        ("resonance", lambda: second_order(grid, y, 100.0 * one, 1e5 * one), 2.0),
+        ("creep, five relaxations", lambda: late_response(grid, y, 0.3 * one, constants), 2.0),
+        ("saturation", lambda: saturate(y, level, sharpness), 5.0),
+        ("fatigue", lambda: fade(y, u, np.abs(small)), 2.0),
+        ("temperature", lambda: scale_and_add(y, grid, small, small), 2.0),
+        ("drift", lambda: add(y, grid, small), 0.4),
+        ("record offset or drift, estimate", lambda: products(y, grid), 2.0),
+        ("periodic disturbance", lambda: add_sinusoid(y, grid, small, small, 5.0 * one), 2.0),
+    ]
+    fastest = {name: np.inf for name, _, _ in runs}
+    for _ in range(ROUNDS):
+        for name, run, _ in runs:
+            before = time.thread_time()
+            run()
+            fastest[name] = min(fastest[name], time.thread_time() - before)
+    return [(name, fastest[name] / fastest["bouc-wen"], asked) for name, _, asked in runs]
+
+
+if __name__ == "__main__":
+    print(f"{PARTICLES} particles, {SAMPLES} samples; B = bouc-wen with a shared input")
+    for name, ratio, asked in rows():
+        print(f"{name:36s} {ratio:6.2f} B   asked {asked:4.1f} B   {'held' if ratio <= asked else 'missed'}")

@@ -1,0 +1,39 @@
+"""The exponential and the logarithm of the kernels against numpy's."""
+
+import numpy as np
+from numba import njit
+
+from hysteresis_bench.kernels.elementary import exponential, logarithm
+
+
+@njit(error_model="numpy", fastmath={"contract"})
+def every(x, exponentials, logarithms):
+    for i in range(x.size):
+        exponentials[i] = exponential(x[i])
+        logarithms[i] = logarithm(abs(x[i]))
+
+
+def computed(x):
+    exponentials, logarithms = np.empty_like(x), np.empty_like(x)
+    every(x, exponentials, logarithms)
+    return exponentials, logarithms
+
+
+def test_both_are_as_exact_as_they_say():
+    rng = np.random.default_rng(0)
+    x = np.concatenate([rng.uniform(-700, 700, 20_000), rng.uniform(-2, 2, 20_000), rng.normal(size=5000) * 1e-9])
+    exponentials, logarithms = computed(x)
+    np.testing.assert_allclose(exponentials, np.exp(x), rtol=5e-16, atol=0)
+    expected = np.log(np.abs(x))
+    assert np.max(np.abs(logarithms - expected) / np.maximum(np.abs(expected), 1.0)) < 4e-16
+    sizes = 10.0 ** np.arange(-307, 308)
+    np.testing.assert_allclose(computed(sizes)[1], np.log(sizes), rtol=4e-16)
+
+
+def test_the_ends_are_kept():
+    exponentials, logarithms = computed(np.array([0.0, -1e5, 1e5, 1.0]))
+    assert exponentials[0] == 1.0
+    assert 0.0 <= exponentials[1] < 1e-307
+    assert 1e307 < exponentials[2] < np.inf
+    assert logarithms[0] < -708
+    assert logarithms[3] == 0.0
