@@ -157,7 +157,7 @@ def test_many_records_are_told_and_some_drawn(tmp_path, diagnosis):
 def test_the_page_of_an_older_diagnosis_shows_what_its_files_have(tmp_path, diagnosis):
     _written(tmp_path, diagnosis)
     content = json.loads((tmp_path / DIAGNOSIS).read_text())
-    for key in ("floor", "doubtful", "described", "offset_of_both", "equation", "experiment"):
+    for key in ("floor", "doubtful", "described", "offset_of_both", "equation", "experiment", "given_up"):
         del content[key]
     for candidate in content["candidates"]:
         del candidate["judgement"]

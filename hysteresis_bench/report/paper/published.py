@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import Field, ValidationError
-
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.study.strict import Strict
+from hysteresis_bench.study.strict import Strict, read_toml, validated
 from hysteresis_bench.study.study_file import read_study
 
 Kind = Literal["contradiction", "misprint", "omission", "consequence"]
@@ -78,7 +75,7 @@ class Audit(Strict):
     expects: bool | float | None = None
     tolerance: float = 5e-3
     name: str = ""
-    sample: dict[str, tuple[float, float]] = Field(default_factory=dict)
+    sample: dict[str, tuple[float, float]] = {}
     scaling: Literal["linear", "log"] = "linear"
 
 
@@ -96,15 +93,15 @@ class Published(Strict):
 
     citation: str = ""
     because: str = ""
-    comparable: list[str] = Field(default_factory=list)
+    comparable: list[str] = []
     iterations: int | None = None
-    values: dict[str, float | list[float]] = Field(default_factory=dict)
-    tables: dict[str, Table] = Field(default_factory=dict)
-    result: list[PublishedResult] = Field(default_factory=list)
-    implied: list[Implied] = Field(default_factory=list)
-    claim: list[Claim] = Field(default_factory=list)
-    audit: list[Audit] = Field(default_factory=list)
-    decision: list[Decision] = Field(default_factory=list)
+    values: dict[str, float | list[float]] = {}
+    tables: dict[str, Table] = {}
+    result: list[PublishedResult] = []
+    implied: list[Implied] = []
+    claim: list[Claim] = []
+    audit: list[Audit] = []
+    decision: list[Decision] = []
 
     @property
     def optimizers(self) -> list[str]:
@@ -115,19 +112,14 @@ class Published(Strict):
 
 def check_published(raw: Mapping[str, Any], where: str = "published.toml") -> Published:
     """Parsed TOML -> a checked file; an empty one without a paper. Raises UserError naming every fault."""
-    try:
-        return Published.model_validate(dict(raw))
-    except ValidationError as error:
-        places = [(" ".join(str(part) for part in fault["loc"]), fault["msg"]) for fault in error.errors()]
-        raise UserError(where, [f"{place}: {message}." for place, message in places]) from None
+    published, _, faults = validated(Published, raw)
+    if published is None:
+        raise UserError(where, faults)
+    return published
 
 
 def check_published_beside(study: Path) -> None:
     """Check the published file that a study names, before an hour of trials. Raises UserError."""
     named = read_study(study)[0].published
     if named and (file := study.parent / named).is_file():
-        try:
-            raw = tomllib.loads(file.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise UserError(str(file), f"is not valid TOML: {error}.") from None
-        check_published(raw, str(file))
+        check_published(read_toml(file)[0], str(file))

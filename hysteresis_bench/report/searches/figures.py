@@ -43,7 +43,7 @@ def convergence(folder: Path, name: str, problem: Problem, *, looks: Mapping[str
     ranked = ", ".join(shown)
     alt = f"Best fitness against evaluations on {problem.name}; lowest at the end first: {ranked}."
     caption = f"{problem.name}. Best fitness so far against evaluations, both logarithmic. Line: median over "
-    caption += f"{trials} trials; band: quartiles. Failed trials count as infinitely bad."
+    caption += f"{trials} trial{'s' * (trials != 1)}; band: quartiles. Failed trials count as infinitely bad."
     return picture(folder, name, (4.6, 3.1), alt=alt, caption=caption, draw=draw)
 
 

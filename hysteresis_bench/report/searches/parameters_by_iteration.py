@@ -39,6 +39,7 @@ def parameters_by_iteration(results: Results, problem: str, label: str, *, folde
                 colour = SERIES[number % len(SERIES)]
                 panel.step(when, np.append(values, values[-1]), where="post", color=colour, linewidth=1.0)
             panel.set_title(title, fontweight="normal")
+            panel.tick_params(axis="x", labelbottom=index + COLUMNS >= len(panels))
             everything = np.concatenate([line.get_ydata() for line in panel.lines])
             if everything.min() > 0 and everything.max() > 20 * everything.min():
                 panel.set_yscale("log")
