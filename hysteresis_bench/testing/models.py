@@ -122,9 +122,8 @@ class ModelContract(PluginContract):
                     if parameter.null is not None:
                         inner[row] = parameter.upper if on else parameter.null
                 same = np.array_equal(around.simulate(record.signal, np.vstack([values, inner])), bare)
-                expect(
-                    same != on, f"{name} changes {'nothing' if on else 'the output'} at its {'edge' if on else 'null'}."
-                )
+                told = "nothing at the edge of its box" if on else "the output at its null"
+                expect(same != on, f"{name} changes {told}.")
 
     def test_it_advises_in_sentences(self, plugin: str) -> None:
         """What it says of records are sentences."""

@@ -33,7 +33,7 @@ def undisturbed(seed: int) -> Iterator[None]:
 
 
 def _state() -> dict[str, object]:
-    numbers: dict[str, Any] = np.random.get_state(legacy=False)  # type: ignore[assignment]  # noqa: NPY002
+    numbers: dict[str, Any] = np.random.get_state(legacy=False)  # noqa: NPY002
     return {
         "Python's global random numbers": random.getstate(),
         "numpy's global random numbers": (numbers["state"]["key"].tobytes(), numbers["state"]["pos"]),
