@@ -11,6 +11,7 @@ import click
 from rich.console import Console
 from rich.markup import escape
 
+from hysteresis_bench.commands.check_plugin import check_plugin
 from hysteresis_bench.commands.console import plain_console, say_path
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
@@ -75,5 +76,5 @@ def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
     say_path(plain_console(), "data", out)
 
 
-for command in (control, diagnose, fit, list_plugins, report, run):
+for command in (check_plugin, control, diagnose, fit, list_plugins, report, run):
     main.add_command(command)

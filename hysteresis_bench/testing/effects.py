@@ -71,7 +71,7 @@ class EffectContract(PluginContract):
             )
 
     def test_it_is_neutral_at_null_around_every_model(self, plugin: str) -> None:
-        """So around every registered model."""
+        """At its null value it changes nothing, to the last bit, around every registered model either."""
         effect = self.build(plugin)
         record = measured(121)
         for name in registry.names("models"):

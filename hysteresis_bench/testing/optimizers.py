@@ -62,7 +62,7 @@ class OptimizerContract(PluginContract):
             expect(trace.losses[-1] < trace.losses[0], f"{where} it finds nothing better than its first point.")
 
     def test_its_random_numbers_come_from_the_seed(self, plugin: str) -> None:
-        """The same seed gives the same points, in the same order, also in five dimensions and after other searches."""
+        """The same seed gives the same points in the same order, also on a longer search."""
         first, again = (self.search(plugin, Waves(5), 517) for _ in range(2))
         same = np.array_equal(first.points, again.points) and np.array_equal(first.trace.losses, again.trace.losses)
         expect(same, "the same seed gives another search; draw every random number from the generator `rng`.")
