@@ -17,6 +17,7 @@ from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.list import list_plugins
+from hysteresis_bench.commands.new_plugin import new_plugin
 from hysteresis_bench.commands.report import report
 from hysteresis_bench.commands.run import run
 from hysteresis_bench.errors import UserError, nearest
@@ -76,5 +77,5 @@ def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
     say_path(plain_console(), "data", out)
 
 
-for command in (check_plugin, control, diagnose, fit, list_plugins, report, run):
+for command in (check_plugin, control, diagnose, fit, list_plugins, new_plugin, report, run):
     main.add_command(command)

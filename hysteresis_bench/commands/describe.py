@@ -64,7 +64,7 @@ def _parameters(parameters: tuple[Parameter, ...]) -> Table:
 
 def _settings(loaded: type, types: dict[str, Any]) -> Table:
     table = _table("setting", "type", "default")
-    for field in dataclasses.fields(loaded):  # type: ignore[arg-type]
+    for field in dataclasses.fields(loaded):
         if field.name in types:
             default = field.default if field.default_factory is dataclasses.MISSING else field.default_factory()
             kind = types[field.name]
