@@ -24,7 +24,7 @@ FAILED = 1
 @click.command("check-plugin")
 @click.argument("name")
 @click.option("--kind", type=click.Choice(list(SINGULAR)), help="Where a name is of several kinds.")
-@click.option("--timeout", type=float, default=300.0, show_default=True, help="Seconds that a test may take.")
+@click.option("--timeout", type=float, default=120.0, show_default=True, help="Seconds that a test may take.")
 def check_plugin(name: str, kind: str | None, timeout: float) -> None:
     """Test whether the plugin NAME keeps its contract; exit code 1 where it does not."""
     asked = {word: SINGULAR[word] for word in ([kind] if kind else SINGULAR)}

@@ -25,6 +25,7 @@ CONTRACTS: dict[registry.Kind, type[PluginContract]] = {
 }
 KEPT, BROKEN = "kept", "broken"
 SPEED = "speed"
+TIMED_OUT = "timed-out"
 LONGEST = 500
 """Characters that a plugin's own message may take."""
 
@@ -50,19 +51,23 @@ class Verdict:
 def check(kind: registry.Kind, plugin: str, timeout: float) -> Iterator[Verdict]:
     """Every promise in turn; where all are kept, how fast the plugin is. timeout : seconds a promise
 
-    A plugin that cannot be loaded gets one verdict.
+    A plugin that cannot be loaded gets one verdict; one that hangs is asked no more.
     """
     loaded = registry.load(kind, plugin)
     if loaded.fault:
         yield Verdict("It loads, and declares what it must.", BROKEN, loaded.fault)
         return
     asked = promises(CONTRACTS[kind])
-    answers = run_tickets([Question(kind, plugin, method) for method in asked], answer, 1, timeout)
-    found = {
-        question.method: outcome or Verdict(asked[question.method], BROKEN, f"{status}: {reason}.")
-        for question, outcome, status, reason in answers
-    }
-    yield from (found[method] for method in asked)
+    found: dict[str, Verdict] = {}
+    for question, outcome, status, reason in run_tickets(
+        [Question(kind, plugin, method) for method in asked], answer, 1, timeout
+    ):
+        promise = asked[question.method]
+        found[question.method] = outcome or Verdict(promise, BROKEN, f"{status}: {reason}.")
+        if status == TIMED_OUT:
+            found[question.method] = Verdict(promise, BROKEN, f"{reason}; what had not been tried by then was not.")
+            break
+    yield from (found[method] for method in asked if method in found)
     if all(verdict.status == KEPT for verdict in found.values()):
         for _, outcome, status, reason in run_tickets([Question(kind, plugin, SPEED)], answer, 1, timeout):
             yield outcome or Verdict("Its speed can be measured.", BROKEN, f"{status}: {reason}.")

@@ -17,7 +17,7 @@ from hysteresis_bench.testing.contract import expect
 from hysteresis_bench.testing.examples import QUANTITIES, Cubic, locked, measured
 from hysteresis_bench.testing.hiding import changes
 from hysteresis_bench.testing.parameters import expect_described, expect_sound
-from hysteresis_bench.testing.plugin import PluginContract
+from hysteresis_bench.testing.plugin import PluginContract, shipped
 from hysteresis_bench.testing.swarms import (
     corners,
     drawn,
@@ -71,19 +71,17 @@ class EffectContract(PluginContract):
             )
 
     def test_it_is_neutral_at_null_around_every_model(self, plugin: str) -> None:
-        """At its null value it changes nothing, to the last bit, around every registered model either."""
+        """At its null value it changes nothing, to the last bit, around every shipped model either."""
         effect = self.build(plugin)
         record = measured(121)
-        for name in registry.names("models"):
-            loaded = registry.load("models", name).loaded
-            if loaded is not None:
-                alone = System(loaded())
-                values = drawn(alone.box([record]), 5)
-                off = _switched_off(effect, _values(effect, record, 5))[2:]
-                around = replace(alone, effects=((plugin, effect),))
-                simulated = around.simulate(record.signal, np.vstack([values, off]))
-                same = np.array_equal(simulated, alone.simulate(record.signal, values))
-                expect(same, f"at its null it changes bits of the model {name}.")
+        for name in shipped("models"):
+            alone = System(registry.build("models", name))
+            values = drawn(alone.box([record]), 5)
+            off = _switched_off(effect, _values(effect, record, 5))[2:]
+            around = replace(alone, effects=((plugin, effect),))
+            simulated = around.simulate(record.signal, np.vstack([values, off]))
+            same = np.array_equal(simulated, alone.simulate(record.signal, values))
+            expect(same, f"at its null it changes bits of the model {name}.")
 
     def test_it_changes_something(self, plugin: str) -> None:
         """At the far edge of its box it changes the output by a hundredth of its range or more."""

@@ -21,10 +21,11 @@ def undisturbed(seed: int) -> Iterator[None]:
     kept = random.getstate(), np.random.get_state()  # noqa: NPY002
     random.seed(seed)
     np.random.seed(seed)  # noqa: NPY002
-    before = _state()
     try:
-        yield
-        after = _state()
+        with np.errstate(all="warn"):
+            before = _state()
+            yield
+            after = _state()
     finally:
         random.setstate(kept[0])
         np.random.set_state(kept[1])  # noqa: NPY002

@@ -13,6 +13,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.testing.examples import Cubic, Waves, measured
 from hysteresis_bench.testing.meter import watch
+from hysteresis_bench.testing.plugin import shipped
 from hysteresis_bench.testing.swarms import drawn
 
 REPEATS = 3
@@ -24,11 +25,7 @@ SAMPLES, SWARM = 1000, 50
 def speed(kind: registry.Kind, plugin: str) -> str:
     """A sentence: processor time of a fixed task, and its ratio to the median of the shipped plugins."""
     own = _seconds(kind, plugin)
-    shipped = registry.load("optimizers", registry.SEARCH).distribution
-    others = [
-        name for name in registry.names(kind) if name != plugin and registry.load(kind, name).distribution == shipped
-    ]
-    times = [_seconds(kind, name) for name in others if not registry.load(kind, name).fault]
+    times = [_seconds(kind, name) for name in shipped(kind) if name != plugin]
     middle = float(np.median(times))
     tasks = {
         "optimizers": f"a search of {BUDGET} evaluations",
