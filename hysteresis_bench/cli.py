@@ -11,11 +11,13 @@ import click
 from rich.console import Console
 from rich.markup import escape
 
+from hysteresis_bench.commands.check_plugin import check_plugin
 from hysteresis_bench.commands.console import plain_console, say_path
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.list import list_plugins
+from hysteresis_bench.commands.new_plugin import new_plugin
 from hysteresis_bench.commands.report import report
 from hysteresis_bench.commands.run import run
 from hysteresis_bench.errors import UserError, nearest
@@ -75,5 +77,5 @@ def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
     say_path(plain_console(), "data", out)
 
 
-for command in (control, diagnose, fit, list_plugins, report, run):
+for command in (check_plugin, control, diagnose, fit, list_plugins, new_plugin, report, run):
     main.add_command(command)

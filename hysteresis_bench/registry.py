@@ -10,13 +10,12 @@ from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal
 
-from hysteresis_bench.contracts import Acts, Effect, Family, Model, Optimizer, Rig
+from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
+from hysteresis_bench.declarations import declaration_faults
 from hysteresis_bench.errors import nearest
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
-WORDS = {"acts": typing.get_args(Acts), "family": typing.get_args(Family)}
-"""What an effect may say of itself."""
 
 # The defaults: the only names of plugins that the framework itself knows.
 SEARCH = "pso-constriction"
@@ -47,6 +46,7 @@ class Plugin:
     kind: Kind
     name: str
     distribution: str
+    version: str
     loaded: type | None
     fault: str = ""
 
@@ -76,22 +76,14 @@ def load(kind: Kind, name: str) -> Plugin:
     if name not in _points(kind):
         raise KeyError(f'no {kind[:-1]} "{name}". {nearest(name, names(kind))}')
     point = _points(kind)[name]
-    distribution = point.dist.name if point.dist else ""
+    origin = (point.dist.name, point.dist.version) if point.dist else ("", "")
     try:
         loaded = point.load()
-    except Exception as error:  # a plugin's own fault, whatever it is, must not stop the others
-        return Plugin(kind, name, distribution, None, f"{type(error).__name__}: {error}")
-    contract = CONTRACTS[kind]
-    if not (isinstance(loaded, type) and issubclass(loaded, contract)):
-        return Plugin(kind, name, distribution, None, f"{point.value} does not keep the contract {contract.__name__}")
-    undeclared = [attribute for attribute in contract.__annotations__ if not hasattr(loaded, attribute)]
-    if missing := sorted({*getattr(loaded, "__abstractmethods__", ()), *undeclared}):
-        return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")
-    for attribute, known in WORDS.items() if kind == "effects" else ():
-        if (word := getattr(loaded, attribute)) not in known:
-            fault = f'{loaded.__name__}: no {attribute} "{word}". {nearest(word, known)}'
-            return Plugin(kind, name, distribution, None, fault)
-    return Plugin(kind, name, distribution, loaded)
+    except (Exception, SystemExit) as error:  # a plugin's own fault must not stop the others
+        return Plugin(kind, name, *origin, None, f"{type(error).__name__}: {error}")
+    if found := declaration_faults(loaded, CONTRACTS[kind]):
+        return Plugin(kind, name, *origin, None, " · ".join(found))
+    return Plugin(kind, name, *origin, loaded)
 
 
 @cache
@@ -123,7 +115,7 @@ def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:
     plugin = load(kind, name)
     if plugin.loaded is None:
         return [f'{kind[:-1]} "{name}" is broken: {plugin.fault}']
-    fields = _settings(plugin.loaded)
+    fields = settings_of(plugin.loaded)
     found = []
     for key, value in settings.items():
         if key not in fields:
@@ -176,7 +168,7 @@ def build_effects(
     )
 
 
-def _settings(plugin: type) -> dict[str, Any]:
+def settings_of(plugin: type) -> dict[str, Any]:
     """Names and types of a plugin's settings: the fields of its dataclass."""
     if not dataclasses.is_dataclass(plugin):
         return {}

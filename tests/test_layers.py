@@ -10,6 +10,7 @@ PACKAGE = Path(hysteresis_bench.__file__).parent
 FLOORS = [
     ["cli", "__main__", "__init__"],
     ["commands"],
+    ["testing"],
     ["report"],
     ["study_diagnosis"],
     ["diagnosis_study"],
@@ -20,6 +21,7 @@ FLOORS = [
     ["stats"],
     ["compose"],
     ["registry"],
+    ["declarations"],
     ["contracts", "data_files"],
     ["signals", "parameters"],
     ["errors", "kernels"],
