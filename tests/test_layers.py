@@ -21,6 +21,7 @@ FLOORS = [
     ["compose"],
     ["registry"],
     ["contracts", "data_files"],
+    ["csv_files", "units"],
     ["signals", "parameters"],
     ["errors", "kernels"],
     ["arrays"],
