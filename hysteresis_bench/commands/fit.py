@@ -7,7 +7,8 @@ from pathlib import Path
 
 import click
 
-from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.commands.console import plain_console, say_notes
+from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.errors import UserError
 
 
@@ -20,11 +21,12 @@ from hysteresis_bench.errors import UserError
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
-@click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored.")
+@click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
 @click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring.")
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@force_option
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -39,19 +41,23 @@ def fit(
     held_out: Sequence[str],
     input_offset: float,
     flip: bool,
-    skip: float | None,
+    skip: float,
     settle: bool,
     seed: int,
     optimizer: str | None,
     budget: int | None,
+    force: bool,
     out: Path | None,
 ) -> None:
     """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
     from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
-    from hysteresis_bench.report.fit.folder import print_fit, write_fit
+    from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
+    from hysteresis_bench.report.fit.page import FILE
 
-    dataset = load(*data, held_out=held_out, skip=skip)
+    folder = out or Path(f"{data[0].stem}-fit")
+    check_folder(folder, FILES, FILE, data, force)
+    dataset = load(*data, held_out=held_out)
     default = FitOptions()
     options = FitOptions(
         optimizer=optimizer or default.optimizer,
@@ -59,12 +65,14 @@ def fit(
         seed=seed,
         input_offset=input_offset,
         flip=flip,
+        skip=skip,
         settle=settle,
     )
     fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
     console = plain_console()
+    say_notes(console, dataset.notes)
     print_fit(fitted, console)
-    page = write_fit(out or Path(f"{data[0].stem}-fit"), fitted, data)
+    page = write_fit(folder, fitted, data)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)
 
 

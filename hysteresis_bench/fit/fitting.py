@@ -18,8 +18,9 @@ from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.identifiability import Identifiability, analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES
-from hysteresis_bench.fit.model_file import FittedModel, Preparation, fitted_model
+from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
@@ -38,6 +39,7 @@ class FitOptions:
     optimizer, optimizer_settings : a registered optimizer;  budget : evaluations of each search
     seed : of both searches
     input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    skip : seconds at the start of every record that are simulated and not scored
     settle : closed loops are repeated until they close before they are scored
     """
 
@@ -47,6 +49,7 @@ class FitOptions:
     seed: int = 0
     input_offset: float = 0.0
     flip: bool = False
+    skip: float = 0.0
     settle: bool = False
 
 
@@ -86,7 +89,7 @@ class Fit:
 @dataclass(frozen=True, eq=False)
 class _Searched:
     """dataset : as the problem sees it;  found : (dimension,) of each search, polished, in units;  losses : of them
-    repeats : passes of every loop before it is scored;  gap : between the last two of them"""
+    repeats : passes of every loop before it is scored, 0 where it is not;  gap : between the last two of them"""
 
     problem: Problem
     dataset: Dataset
@@ -120,7 +123,9 @@ def fit_records(
     """
     settings = settings or {}
     system = _system(model, settings, effects, fixed or {}, options)
-    preparation = Preparation(options.input_offset, options.flip)
+    preparation = Preparation(options.input_offset, options.flip, options.skip)
+    if faults := preparation.faults(dataset.records):
+        raise UserError("fit", faults)
     seen = dataset.map(preparation)
     _check(system, seen, options.settle)
     space = _space(system, seen.fitted, bounds or {})
@@ -137,7 +142,7 @@ def fit_records(
         dataset=best.dataset,
         model=model,
         settings=settings,
-        preparation=preparation,
+        preparation=replace(preparation, settle=best.repeats),
     )
     parameters = _parameter_table(problem, fitted)
     agrees, agreement = _agreement(problem, best.found, best.losses)
@@ -145,7 +150,7 @@ def fit_records(
     return Fit(
         fitted,
         _error_table(system, values, best.dataset),
-        response_table(dataset, {"simulated": responses}),  # as measured, not as the model sees it
+        response_table(dataset.map(preparation.skipped), {"simulated": responses}),  # the measured input
         parameters,
         analysis,
         agreement,
@@ -156,7 +161,7 @@ def fit_records(
             *_edges(parameters),
             *analysis.sentences(),
         ),
-        _notes(space, options, best.repeats if options.settle else 0),
+        (*dataset.notes, *_notes(space, options, best.repeats)),
     )
 
 
@@ -225,7 +230,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         losses = tuple(float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found)
         searched = _Searched(problem, ready, tuple(found), losses, repeats, 0.0)
         if not options.settle:
-            return searched
+            return replace(searched, repeats=0)
         gap = gap_after(system, ready.records, searched.values, repeats)
         if gap < CLOSED or repeats >= MOST_REPEATS:
             return replace(searched, gap=gap)

@@ -21,7 +21,8 @@ from hysteresis_bench.control.references import Reference, published_references,
 from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.model_file import Estimate, FittedModel, Preparation, read_model, write_model
+from hysteresis_bench.fit.model_file import Estimate, FittedModel, read_model, write_model
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.kernels.second_order import transition
 from hysteresis_bench.signals import Signal
 
