@@ -188,7 +188,7 @@ def run_study(
     """Run or continue a study, and the diagnosis at its end where it asks for one; then read its results.
 
     path : a study file (TOML);  trials : overrides the file's number;  jobs : worker processes, all cores by default
-    out : the results folder; default: results/NAME
+    out : the results folder; default: runs/NAME
     on_progress : called after every trial, and once before the first
     Raises UserError telling every fault of the file, of the data, or of the folder.
     """

@@ -9,6 +9,9 @@ import click
 
 from hysteresis_bench.errors import UserError
 
+REPORT, CONTINUED = "report.html", ("trials.sqlite", "cases")
+"""A study's page, and what a study or a study of diagnosis goes on from."""
+
 force_option = click.option("--force", is_flag=True, help="Write over what is there, also over the inputs.")
 
 
@@ -38,6 +41,17 @@ def check_folder(
         faults += [f"{folder / name} is not this command's own." for name in files if (folder / name).exists()]
     if faults:
         raise UserError(str(folder), [*faults, "Choose another folder with --out, or --force to replace them."])
+
+
+def check_results(folder: Path, force: bool = False) -> None:
+    """Raises UserError for a report that is kept without what it was made from: running would begin it anew."""
+    continued = any((folder / name).exists() for name in CONTINUED)
+    if (folder / REPORT).is_file() and not continued and not force:
+        raise UserError(
+            str(folder),
+            "holds a report that is kept, without its trials, and would be replaced. "
+            "Choose another folder with --out, or --force to replace it.",
+        )
 
 
 def _same(one: Path, other: Path) -> bool:
