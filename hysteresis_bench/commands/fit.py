@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import click
 
 from hysteresis_bench.commands.console import plain_console, say_notes
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.errors import UserError
+
+Value = TypeVar("Value")
 
 
 @click.command()
@@ -78,28 +81,30 @@ def fit(
 
 def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
     """P=LO:HI ..."""
-    found, faults = {}, []
-    for text in texts:
-        name, _, interval = text.partition("=")
-        low, _, high = interval.partition(":")
-        try:
-            found[name.strip()] = (float(low), float(high))
-        except ValueError:
-            faults.append(f'"{text}" should read PARAMETER=LOW:HIGH, such as a=0.1:10.')
-    if faults:
-        raise UserError("--bounds", faults)
-    return found
+
+    def interval(text: str) -> tuple[float, float]:
+        low, _, high = text.partition(":")
+        return float(low), float(high)
+
+    return _by_name(texts, interval, "--bounds", "PARAMETER=LOW:HIGH, such as a=0.1:10")
 
 
 def _values(texts: Sequence[str]) -> dict[str, float]:
     """P=VALUE ..."""
-    found, faults = {}, []
+    return _by_name(texts, float, "--fix", "PARAMETER=VALUE, such as n=1")
+
+
+def _by_name(texts: Sequence[str], read: Callable[[str], Value], option: str, form: str) -> dict[str, Value]:
+    found: dict[str, Value] = {}
+    faults = []
     for text in texts:
         name, _, value = text.partition("=")
+        if name.strip() in found:
+            faults.append(f'"{name.strip()}" is given twice.')
         try:
-            found[name.strip()] = float(value)
+            found[name.strip()] = read(value)
         except ValueError:
-            faults.append(f'"{text}" should read PARAMETER=VALUE, such as n=1.')
+            faults.append(f'"{text}" should read {form}.')
     if faults:
-        raise UserError("--fix", faults)
+        raise UserError(option, faults)
     return found

@@ -11,6 +11,7 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.asked import asked_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.signals import Dataset
@@ -70,9 +71,7 @@ class Question:
         if faults := self.preparation.faults(dataset.records):
             raise UserError("diagnose", faults)
         dataset = dataset.map(self.preparation.skipped)
-        faults = registry.faults("models", self.model, self.settings)
-        for name in self.effects:
-            faults += registry.effect_faults(name, self.model)
+        faults = asked_faults(self.model, self.settings, self.effects)
         if not faults:
             known = registry.build_effects(self.built, self.effects)
             reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}

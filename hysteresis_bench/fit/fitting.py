@@ -15,6 +15,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
+from hysteresis_bench.fit.asked import asked_faults
 from hysteresis_bench.fit.identifiability import Identifiability, analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES
@@ -168,10 +169,8 @@ def fit_records(
 def _system(
     model: str, settings: Mapping[str, Any], effects: Sequence[str], fixed: Mapping[str, float], options: FitOptions
 ) -> System:
-    faults = registry.faults("models", model, settings)
+    faults = asked_faults(model, settings, effects)
     faults += registry.faults("optimizers", options.optimizer, options.optimizer_settings)
-    for effect in effects:
-        faults += registry.effect_faults(effect, model)
     if faults:
         raise UserError("fit", faults)
     built = registry.build("models", model, settings)
@@ -181,6 +180,8 @@ def _system(
     known = replace(system, fixed=fixed)
     if unknown or known.refusals():
         raise UserError("fit", unknown + [f"fixed {reason}" for reason in known.refusals()])
+    if not known.parameters:
+        raise UserError("fit", "every parameter is fixed; leave one free to be found.")
     return known
 
 

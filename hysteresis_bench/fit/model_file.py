@@ -15,10 +15,12 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.data_files import LARGEST
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_bench.units import MEASURED, in_units
 
@@ -188,13 +190,15 @@ def write_model(path: Path, fitted: FittedModel) -> None:
 def read_model(path: Path) -> FittedModel:
     """Read model.json. Raises UserError naming what is missing or wrong."""
     try:
+        if path.exists() and not path.is_file():
+            raise UserError(str(path), "cannot be read: it is no file.")
         content = json.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise UserError(str(path), f"cannot be read: {error.strerror}.") from None
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
         raise UserError(str(path), f"is not valid JSON: {error}.") from None
     schema = content.get("schema") if isinstance(content, dict) else None
-    if schema not in READABLE:
+    if type(schema) is not int or schema not in READABLE:
         known = " or ".join(map(str, READABLE))
         raise UserError(str(path), f"is not a fitted model of schema {known}: its schema is {schema!r}.")
     try:
@@ -206,12 +210,17 @@ def read_model(path: Path) -> FittedModel:
         raise UserError(str(path), f"{error}") from None
     estimates = fitted.parameters
     faults = [f'parameter "{p.name}" is missing.' for p in parameters if p.name not in estimates]
-    faults += [r for p in parameters if p.name in estimates and (r := p.refuses(estimates[p.name].value))]
+    faults += [r for p in parameters if p.name in estimates and (r := _refused(p, estimates[p.name].value))]
     faults += fitted.system.refusals()
-    faults += [f'the unit of "{name}" is missing.' for name in MEASURED if name not in fitted.units]
+    faults += [f'the unit of "{name}" is missing.' for name in MEASURED if not isinstance(fitted.units.get(name), str)]
     if faults:
         raise UserError(str(path), faults)
     return fitted
+
+
+def _refused(parameter: Parameter, value: float) -> str:
+    too_large = f"{parameter.name} = {value:g} is too large to work with." if abs(value) > LARGEST else ""
+    return parameter.refuses(value) or too_large
 
 
 def _fitted(content: Mapping[str, Any]) -> FittedModel:

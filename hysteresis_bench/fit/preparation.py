@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed
 from hysteresis_bench.signals import INDEX, Record
 from hysteresis_bench.units import seconds_in
 
@@ -28,6 +28,11 @@ class Preparation:
     flip: bool = False
     skip: float = 0.0
     settle: int = 0
+
+    def __post_init__(self) -> None:
+        """Raises ValueError for what cannot be done to a record."""
+        if not (np.isfinite(self.input_offset) and 0.0 <= self.skip < np.inf and 0 <= self.settle <= MOST_REPEATS):
+            raise ValueError(f"no record can be prepared by {self}.")
 
     def __call__(self, record: Record) -> Record:
         """The record as the model sees it; one that is no closed loop is passed once."""
