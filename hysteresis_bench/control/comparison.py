@@ -89,7 +89,8 @@ def compare(
     name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
-    Raises ValueError where the units or the range of the input do not suit, the model has no inverse, its linear section is unstable, or the sampling is too slow.
+    Raises ValueError where units or ranges do not suit, the model has no inverse, its linear section is unstable, or
+    the sampling is too slow.
     """
     forward = feed_forward(fitted)
     check_units(fitted, forward, rig, name)
@@ -115,15 +116,8 @@ def compare(
             responses.append(_shown(run).assign(**key))
     table = pd.DataFrame(scores)
     conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
-    return Comparison(
-        table,
-        pd.concat(responses),
-        tuning,
-        fitted.units,
-        conditions,
-        NOTES,
-        (*told, *_warnings(table, forward, fitted)),
-    )
+    warnings = (*told, *_warnings(table, forward, fitted))
+    return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, warnings)
 
 
 def _controllers(

@@ -10,7 +10,8 @@ from click.testing import CliRunner
 from hysteresis_bench.cli import main
 
 MODEL = {
-    "schema": 2, "model": "polynomial", "settings": {}, "effects": [], "units": {"time": "s", "input": "V", "output": "um"},
+    "schema": 2, "model": "polynomial", "settings": {}, "effects": [],
+    "units": {"time": "s", "input": "V", "output": "um"},
     "parameters": {name: {"value": 1.0, "standard_error": None, "unit": "1"} for name in ("a", "b")},
 }  # fmt: skip
 LINES = [f"{i / 10},{np.sin(i / 3):.6f},{np.sin(i / 3) ** 3:.6f}" for i in range(40)]
@@ -41,7 +42,7 @@ HOSTILE = {
     "one huge cell": ("time,input,output\n0,1,1\n1,1.7e308,2\n2,0,1\n", 'column "input": "1.7e308" is too large'),
     "denormal steps": ("time,input,output\n0,1,1\n5e-324,2,2\n1e-323,0,1\n", "too short to work with"),
     "a header of a million characters": ("x" * 1_000_000 + "\n1\n2\n", "has a name of 1000000 characters"),
-    "a million blanks": ("time,input" + " " * 1_000_000 + "[V],output\n0,1,1\n1,2,2\n", "has a name of 1000008 characters"),
+    "a million blanks": ("time,input" + " " * 1_000_000 + "[V],output\n", "has a name of 1000008 characters"),
     "one sample": ("time,input,output\n0,1,1\n", "has 1 sample"),
     "an underscore": ("time,input,output\n0,1_0,1\n1,2,1\n", '"1_0" is not a finite number'),
     "nothing": ("", "cannot be read as CSV"),
@@ -132,7 +133,7 @@ def test_numbers_of_a_model_file(here, value):
 
 @pytest.mark.parametrize("change", [{"units": {}}, {"parameters": []}, {"effects": {}}, {"preparation": {"x": 1}},
                                     {"schema": True}, {"preparation": {"settle": -1}}, {"preparation": {"skip": "x"}},
-                                    {"fixed": {"a": None}}, {"units": {"time": 1, "input": 2, "output": 3}}])  # fmt: skip
+                                    {"fixed": {"a": None}}, {"units": {"time": 1, "input": 2}}])  # fmt: skip
 def test_parts_of_a_model_file(here, change):
     (here / "model.json").write_text(json.dumps(MODEL | change), encoding="utf-8")
     told("predict", "model.json", "good.csv", "--out", "out.csv", code=2 if change != {"effects": {}} else 0)
