@@ -23,6 +23,7 @@ FLOORS = [
     ["registry"],
     ["declarations"],
     ["contracts", "data_files"],
+    ["csv_files", "units"],
     ["signals", "parameters"],
     ["errors", "kernels"],
     ["arrays"],

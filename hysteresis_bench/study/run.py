@@ -73,9 +73,9 @@ def run_study(
 
 
 def default_folder(study: Path) -> Path:
-    """results/NAME, in the project for a file in its studies folder, beside the file otherwise."""
+    """runs/NAME, in the project for a file in its studies folder, beside the file otherwise."""
     home = study.resolve().parent
-    return (home.parent if home.name == "studies" else home) / "results" / study.stem
+    return (home.parent if home.name == "studies" else home) / "runs" / study.stem
 
 
 def _tickets(study: Study, data: Path, trials: int) -> list[Ticket]:

@@ -60,7 +60,7 @@ def check(kind: registry.Kind, plugin: str, timeout: float) -> Iterator[Verdict]
     asked = promises(CONTRACTS[kind])
     found: dict[str, Verdict] = {}
     for question, outcome, status, reason in run_tickets(
-        [Question(kind, plugin, method) for method in asked], answer, 1, timeout
+        [Question(kind, plugin, method) for method in asked], answer, jobs=1, timeout=timeout
     ):
         promise = asked[question.method]
         found[question.method] = outcome or Verdict(promise, BROKEN, f"{status}: {reason}.")
@@ -69,7 +69,7 @@ def check(kind: registry.Kind, plugin: str, timeout: float) -> Iterator[Verdict]
             break
     yield from (found[method] for method in asked if method in found)
     if all(verdict.status == KEPT for verdict in found.values()):
-        for _, outcome, status, reason in run_tickets([Question(kind, plugin, SPEED)], answer, 1, timeout):
+        for _, outcome, status, reason in run_tickets([Question(kind, plugin, SPEED)], answer, jobs=1, timeout=timeout):
             yield outcome or Verdict("Its speed can be measured.", BROKEN, f"{status}: {reason}.")
 
 

@@ -15,9 +15,10 @@ from rich.table import Table
 
 from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.fit.model_file import write_model
-from hysteresis_bench.report.fit.page import write_fit_page
+from hysteresis_bench.report.fit.page import FILE, write_fit_page
 
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
+FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
 
 
 def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
