@@ -15,6 +15,7 @@ from typing import Any
 
 import pandas as pd
 
+from hysteresis_bench.csv_files import write_table
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
@@ -133,6 +134,6 @@ def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
     write_diagnosis(out, found)
     held_out = found.responses[found.responses["role"] == "held-out"]
     parts = [fewer(rows) for _, rows in held_out.groupby("record", sort=False)]
-    pd.concat(parts).to_csv(out / RESPONSES, index=False, float_format="%.7g")
+    write_table(out / RESPONSES, pd.concat(parts), digits=7)
     write_diagnosis_page(out, found)
     return DiagnosisEnd(DONE)

@@ -12,6 +12,7 @@ from typing import Any
 
 import pandas as pd
 
+from hysteresis_bench.csv_files import read_table
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
@@ -87,7 +88,7 @@ def read_results(folder: Path) -> Results:
 
 
 def _csv(path: Path) -> pd.DataFrame:
-    return pd.read_csv(path) if path.is_file() else pd.DataFrame()
+    return read_table(path) if path.is_file() else pd.DataFrame()
 
 
 def _json(path: Path) -> Any:

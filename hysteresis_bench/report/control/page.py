@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
+from hysteresis_bench.csv_files import write_table
 from hysteresis_bench.report.shared.page import Cell, Table, listed, number, percent, render
 from hysteresis_bench.report.shared.signal_figures import named
 from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, picture
@@ -26,8 +27,8 @@ def write_control(folder: Path, comparison: Comparison, model: str) -> Path:
     model : what the model is called, for the title
     """
     folder.mkdir(parents=True, exist_ok=True)
-    comparison.scores.to_csv(folder / SCORES, index=False, float_format="%.6g")
-    comparison.responses.to_csv(folder / RESPONSES, index=False, float_format="%.6g")
+    write_table(folder / SCORES, comparison.scores, digits=6)
+    write_table(folder / RESPONSES, comparison.responses, digits=6)
     page = folder / PAGE
     told = comparison.conditions
     text = render(

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from hysteresis_bench.csv_files import write_table
 from hysteresis_bench.report.study.summary import other_budgets, summarise
 from hysteresis_bench.study.results import REPORT, SUMMARY, read_results
 
@@ -23,7 +24,7 @@ def write_report(folder: Path) -> Path:
     results = read_results(folder)
     summary = summarise(results)
     parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
-    pd.concat(part for part in parts if not part.empty).to_csv(folder / SUMMARY, index=False)
+    write_table(folder / SUMMARY, pd.concat(part for part in parts if not part.empty))
     page = folder / REPORT
     page.write_text(study_page(results, summary, folder), encoding="utf-8")
     return page

@@ -10,6 +10,8 @@ from typing import Any
 
 import pandas as pd
 
+from hysteresis_bench.csv_files import read_table
+
 CLOSING, OUTCOME = "closing", "closing.json"
 DIAGNOSIS, MODEL, RESPONSES, PAGE = "diagnosis.json", "model.json", "responses.csv", "diagnosis.html"
 DONE = "done"
@@ -48,7 +50,7 @@ def read_closing(results: Path) -> Closing | None:
         _json(folder / OUTCOME),
         _json(folder / DIAGNOSIS),
         _json(folder / MODEL).get("units", {}),
-        pd.read_csv(responses) if responses.is_file() else pd.DataFrame(),
+        read_table(responses) if responses.is_file() else pd.DataFrame(),
         f"{CLOSING}/{PAGE}" if (folder / PAGE).is_file() else None,
     )
 
