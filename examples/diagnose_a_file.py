@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from hysteresis_bench import diagnose, load, measure
-from hysteresis_bench.data_files import write_csv
+from hysteresis_bench.data.data_files import write_csv
 
 EXPERIMENTS = ("slow", "fast", "nested", "mixed")
 

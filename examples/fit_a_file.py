@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from hysteresis_bench import FitOptions, fit, load, measure, predict
-from hysteresis_bench.data_files import write_csv
+from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.fit.model_file import write_model
 
 if __name__ == "__main__":

@@ -46,7 +46,7 @@ def load(*files: Path | str, held_out: Sequence[str] = ()) -> Dataset:
     held_out : names of records (a file's stem, with ":run" where there is a run column) that are not fitted
     Raises UserError naming file, row and column.
     """
-    from hysteresis_bench.data_files import read_data
+    from hysteresis_bench.data.data_files import read_data
     from hysteresis_bench.errors import UserError
 
     dataset = read_data([Path(file) for file in files])
@@ -138,7 +138,7 @@ def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
     files : CSV with the columns time and input; an output is not needed
     Raises UserError naming what is missing or wrong in the model's file, or file, row and column of the data.
     """
-    from hysteresis_bench.data_files import read_data
+    from hysteresis_bench.data.data_files import read_data
     from hysteresis_bench.fit.model_file import FittedModel, read_model
 
     fitted = model if isinstance(model, FittedModel) else read_model(Path(model))

@@ -72,6 +72,7 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
 
     from hysteresis_bench.control.feed_forward import feed_forward
     from hysteresis_bench.control.trajectory import follow
+    from hysteresis_bench.data.csv_files import write_table
 
     forward = feed_forward(fitted)
     followed = follow(fitted, forward, path, np.inf if limit is None else limit)
@@ -79,7 +80,7 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     table = pd.DataFrame({f"{name} [{fitted.units[name]}]": values for name, values in columns.items()})
     table["at_limit"] = followed.cut.astype(int)
     folder.mkdir(parents=True, exist_ok=True)
-    table.to_csv(folder / FEED_FORWARD, index=False, float_format="%.12g")
+    write_table(folder / FEED_FORWARD, table, digits=12)
     say_notes(console, followed.notes)
     if followed.cut.any():
         first = followed.time[int(np.argmax(followed.cut))]

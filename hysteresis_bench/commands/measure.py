@@ -21,7 +21,7 @@ def measure(rig: str, experiment: str, out: Path, seed: int, force: bool) -> Non
     from hysteresis_bench import measure as measure_on_rig
 
     check_file(out, force=force)
-    from hysteresis_bench.data_files import write_csv
+    from hysteresis_bench.data.data_files import write_csv
 
     write_csv(out, measure_on_rig(rig, experiment, seed=seed))
     say_path(plain_console(), "data", out)

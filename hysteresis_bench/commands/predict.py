@@ -19,7 +19,7 @@ from hysteresis_bench.commands.outputs import check_file, force_option
 def predict(model: Path, data: Sequence[Path], out: Path, force: bool) -> None:
     """Predict the output of DATA.csv ... with a fitted MODEL.json, prepared as for its fit."""
     check_file(out, (model, *data), force)
-    from hysteresis_bench.data_files import read_data, write_csv
+    from hysteresis_bench.data.data_files import read_data, write_csv
     from hysteresis_bench.fit.model_file import read_model
 
     fitted, console = read_model(model), plain_console()

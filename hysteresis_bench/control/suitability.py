@@ -6,8 +6,8 @@ import numpy as np
 
 from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.feed_forward import FeedForward
+from hysteresis_bench.data.units import same_unit
 from hysteresis_bench.fit.model_file import FittedModel
-from hysteresis_bench.units import same_unit
 
 WORTH_WHILE = 0.25
 """Share of the amplitude that a rig must be able to reach by the model."""

@@ -10,12 +10,12 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.feed_forward import FeedForward
-from hysteresis_bench.data_files import read_columns, time_faults
+from hysteresis_bench.data.data_files import read_columns, time_faults
+from hysteresis_bench.data.units import in_units
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.signals import Dataset, Record
-from hysteresis_bench.units import in_units
 
 REFERENCE = "reference"
 """What the column of the wanted output may be called, beside `output`."""

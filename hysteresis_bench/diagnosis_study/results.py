@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis_study.case import Case, CaseTicket
 from hysteresis_bench.diagnosis_study.confusion import confusion
 from hysteresis_bench.diagnosis_study.study_file import DiagnosisStudy, read_diagnosis_study
@@ -37,8 +38,8 @@ def write_case(folder: Path, ticket: CaseTicket, case: Case) -> None:
 
 def write_tables(folder: Path, cases: Sequence[Case]) -> None:
     """cases.csv, a row a case, and confusion.csv."""
-    pd.DataFrame([{**asdict(case), "right": case.right} for case in cases]).to_csv(folder / CASES, index=False)
-    confusion(cases).to_csv(folder / CONFUSION)
+    write_table(folder / CASES, pd.DataFrame([{**asdict(case), "right": case.right} for case in cases]))
+    write_table(folder / CONFUSION, confusion(cases), index=True)
 
 
 def check_same(folder: Path, study: DiagnosisStudy) -> None:

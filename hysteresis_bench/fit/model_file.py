@@ -15,14 +15,14 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.data_files import LARGEST
+from hysteresis_bench.data.data_files import LARGEST
+from hysteresis_bench.data.units import MEASURED, in_units
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Dataset, Record
-from hysteresis_bench.units import MEASURED, in_units
 
 SCHEMA = 2
 READABLE = (1, 2)

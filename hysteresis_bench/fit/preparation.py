@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hysteresis_bench.data.units import seconds_in
 from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed
 from hysteresis_bench.signals import INDEX, Record
-from hysteresis_bench.units import seconds_in
 
 SHOWN = 8
 """Names that a sentence lists."""

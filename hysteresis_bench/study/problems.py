@@ -10,7 +10,7 @@ from typing import Any
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Rig
-from hysteresis_bench.data_files import read_data
+from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem

@@ -11,6 +11,8 @@ from typing import Any, TypeVar
 
 import pandas as pd
 
+from hysteresis_bench.data.csv_files import read_table
+
 Content = TypeVar("Content")
 
 UNREADABLE = (OSError, UnicodeDecodeError, ValueError, RecursionError)
@@ -59,7 +61,7 @@ def _table(content: Any) -> dict[str, Any]:
 def _whole(path: Path, columns: Sequence[str]) -> pd.DataFrame:
     if not path.read_bytes().endswith(b"\n"):
         raise ValueError("it ends in the middle of a line")
-    frame = pd.read_csv(path)
+    frame = read_table(path)
     missing = [name for name in columns if name not in frame.columns]
     if missing and not (frame.empty and frame.columns.empty):
         raise ValueError(f"it has no column {missing[0]}")

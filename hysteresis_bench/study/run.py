@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.seeds import seed_of
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
@@ -61,12 +62,12 @@ def run_study(
             tickets = _tickets(study, path.parent, trials or study.trials)
             _run_missing(store, study, tickets, jobs or os.cpu_count() or 1, on_progress)
             table, traces = store.table(), store.traces()
-    table.to_csv(folder / TRIALS, index=False)
+    write_table(folder / TRIALS, table)
     staged, staged_responses = run_stages(study, table, built, folder=path.parent)
     if study.stage:
-        staged.to_csv(folder / STAGES, index=False)
+        write_table(folder / STAGES, staged)
     parts = [responses(table, built), staged_responses]
-    pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
+    write_table(folder / RESPONSES, pd.concat(parts), digits=7)
     determined = json.dumps(identifiability(study, table, built, traces=traces), indent=1, allow_nan=False)
     (folder / IDENTIFIABILITY).write_text(determined + "\n", encoding="utf-8")
     return folder

@@ -6,7 +6,7 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.commands.diagnose import diagnose as command
-from hysteresis_bench.data_files import write_csv
+from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.fit.accuracy import accuracy

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench import measure
-from hysteresis_bench.data_files import write_csv
+from hysteresis_bench.data.data_files import write_csv
 from tests.conftest import ROOT
 
 FENCE = re.compile(r"^```(\w*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)

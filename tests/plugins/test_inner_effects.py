@@ -144,7 +144,7 @@ def lagging(tmp_path_factory):
 
 
 def test_a_fit_recovers_it_and_its_file_is_the_same_model(lagging, tmp_path):
-    from hysteresis_bench.data_files import read_data
+    from hysteresis_bench.data.data_files import read_data
 
     dataset = read_data([lagging])
     found = fit_records(dataset, "bouc-wen", [EDDY], options=FitOptions(budget=1500))

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate
@@ -66,7 +67,7 @@ def write_diagnosis(folder: Path, diagnosis: Diagnosis, files: Sequence[Path] = 
     }
     write_model(folder / MODEL, replace(diagnosis.model, data=data))
     parts = [_thinned(rows) for _, rows in diagnosis.responses.groupby("record", sort=False)]
-    pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
+    write_table(folder / RESPONSES, pd.concat(parts), digits=7)
     path = folder / DIAGNOSIS
     content = _plain({**as_dict(diagnosis), "data": data})
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pandas as pd
 
 from hysteresis_bench.control.comparison import FEED_FORWARD, MEANINGS, PI, SLIDING, Comparison
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.report.shared.blocks import Bullets, Cell, Figures, Table, Terms
 from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.shared.text import Units, listed, named, number, percent
@@ -29,8 +30,8 @@ def write_control(folder: Path, comparison: Comparison, model: str) -> Path:
     model : what the model is called, for the title
     """
     folder.mkdir(parents=True, exist_ok=True)
-    comparison.scores.to_csv(folder / SCORES, index=False, float_format="%.6g")
-    comparison.responses.to_csv(folder / RESPONSES, index=False, float_format="%.6g")
+    write_table(folder / SCORES, comparison.scores, digits=6)
+    write_table(folder / RESPONSES, comparison.responses, digits=6)
     conditions = comparison.conditions
     errors = [_table(comparison, score) for score in ("t_rmse", "t_error")]
     meanings = [(name, MEANINGS[name]) for name in _names(comparison.scores)]

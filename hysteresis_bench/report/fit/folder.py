@@ -13,6 +13,7 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.fit.model_file import write_model
 from hysteresis_bench.report.fit.page import FILE, write_fit_page
@@ -27,8 +28,8 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
     sums = [hashlib.sha256(file.read_bytes()).hexdigest() for file in files]
     data = {"files": [str(file) for file in files], "sha256": sums, **fit.model.data}
     write_model(folder / MODEL, replace(fit.model, data=data))
-    fit.parameters.to_csv(folder / PARAMETERS, index=False)
-    fit.responses.to_csv(folder / RESPONSES, index=False, float_format="%.8g")
+    write_table(folder / PARAMETERS, fit.parameters)
+    write_table(folder / RESPONSES, fit.responses, digits=8)
     summary = {
         "title": f"{fit.model.model} fitted to {', '.join(file.stem for file in files)}",
         "model": fit.model.model,

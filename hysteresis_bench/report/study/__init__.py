@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.report.trials.summary import other_budgets, summarise
 from hysteresis_bench.study.afterwards.closing_files import CLOSING
 from hysteresis_bench.study.results import REPORT, SUMMARY, read_results
@@ -35,5 +36,5 @@ def write_report(folder: Path) -> Path:
     summary = summarise(results)
     parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
     if not richer:
-        pd.concat(part for part in parts if not part.empty).to_csv(folder / SUMMARY, index=False)
+        write_table(folder / SUMMARY, pd.concat(part for part in parts if not part.empty))
     return study_page(results, summary, folder).write(folder / (FROM_TABLES if richer else REPORT))

@@ -12,7 +12,7 @@ from scipy.signal import lsim
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data_files import read_data
+from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.diagnosis.evidence import memory as evidence
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.view import views_of

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data_files import read_data
+from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.diagnosis.evidence.noise import (
     MISSED,
     clipped_rms,

@@ -15,10 +15,10 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.csv_files import read_cells, unguarded, write_table
+from hysteresis_bench.data.csv_files import read_cells, unguarded, write_table
+from hysteresis_bench.data.units import in_units
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.signals import UNITLESS, Dataset, Record, joined
-from hysteresis_bench.units import in_units
 
 HEADER = re.compile(r"(?P<name>[^\[\]]+)(?:\[(?P<unit>[^\[\]]*)\])?")
 HISTORY = "history"

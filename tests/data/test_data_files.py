@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import load
-from hysteresis_bench.data_files import read_data, write_csv
+from hysteresis_bench.data.data_files import read_data, write_csv
 from hysteresis_bench.errors import UserError
 
 

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from hysteresis_bench.data_files import read_data
+from hysteresis_bench.data.data_files import read_data
+from hysteresis_bench.data.units import converted, in_units, same_unit, seconds_in
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset, Record
-from hysteresis_bench.units import converted, in_units, same_unit, seconds_in
 
 MODEL = {"time": "s", "input": "V", "output": "um", "temperature": "degC"}
 
