@@ -48,7 +48,7 @@ def dataset(rig) -> Dataset:
 
 
 def test_it_is_listed():
-    told = CliRunner().invoke(main, ["list", "effects"]).output
+    told = CliRunner().invoke(main, ["list", "effects"], env={"COLUMNS": "200"}).output
     assert BEND in told
     assert ZERO in told
     assert "An even nonlinearity of the output" in told

@@ -45,7 +45,7 @@ def files(kind: registry.Kind, name: str) -> dict[str, str]:
         "class_name": class_name,
         "contract": f"{word.capitalize()}Contract",
         "distribution": distribution_of(name),
-        "summary": f"The {word} {name} for hysteresis-bench.",
+        "says": f"The {word} {name} for hysteresis-bench.",
         "version": version("hysteresis-bench"),
     }
 
