@@ -10,7 +10,8 @@ import numpy as np
 
 def rows(samples: int = 6000, particles: int = 50, repeats: int = 30) -> list[tuple[str, float, float | None]]:
     """(kernel, ns a particle-sample including the writing of its output, target), the fastest of the repeats."""
-    from hysteresis_bench.kernels.bouc_wen import bouc_wen, bouc_wen_power
+    from hysteresis_bench.kernels.bouc_wen import bouc_wen
+    from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
     from hysteresis_bench.kernels.second_order import second_order
 
     rng = np.random.default_rng(0)
@@ -34,7 +35,8 @@ def rows(samples: int = 6000, particles: int = 50, repeats: int = 30) -> list[tu
         timed("bouc-wen", lambda: bouc_wen(u, *p), 1.5),
         timed("bouc-wen, coarse samples", lambda: bouc_wen(coarse, *p)),
         timed("bouc-wen, one input a particle", lambda: bouc_wen(own, *p)),
-        timed("bouc-wen, n = 2", lambda: bouc_wen_power(u, *p, 2.0)),
+        *(timed(f"bouc-wen, n = {n:g}", lambda n=n: bouc_wen_power(u, *p, n)) for n in (1.5, 2.0, 2.7, 3.0)),
+        timed("bouc-wen, n = 2, one input a particle", lambda: bouc_wen_power(own, *p, 2.0)),
         timed("second-order", lambda: second_order(grid, u, damping, stiffness)),
     ]
 

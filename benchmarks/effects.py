@@ -55,13 +55,19 @@ def rows() -> list[tuple[str, float, float]]:
         ("record offset or drift, estimate", lambda: products(y, grid), 2.0),
         ("periodic disturbance", lambda: add_sinusoid(y, grid, small, small, 5.0 * one), 2.0),
     ]
+    columns: dict[str, int] = {}
+    for plays in (20, 100):  # K plays are a swarm of radii on one input
+        radii = np.linspace(0.0, 2.0, plays)
+        runs.append((f"play bank of {plays}, a play", lambda radii=radii: play(u, radii), 0.2))
+        columns[runs[-1][0]] = plays
     fastest = {name: np.inf for name, _, _ in runs}
     for _ in range(ROUNDS):
         for name, run, _ in runs:
             before = time.thread_time()
             run()
             fastest[name] = min(fastest[name], time.thread_time() - before)
-    return [(name, fastest[name] / fastest["bouc-wen"], asked) for name, _, asked in runs]
+    particle = fastest["bouc-wen"] / PARTICLES
+    return [(name, fastest[name] / columns.get(name, PARTICLES) / particle, asked) for name, _, asked in runs]
 
 
 if __name__ == "__main__":

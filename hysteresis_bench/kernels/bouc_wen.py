@@ -13,7 +13,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, moved, regrown, relaxed
+from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, regrown, relaxed
 
 SERIES_LIMIT = 0.25
 """Largest |rate w| for the series of (1 - exp(-x)) / x below; its first neglected term is 2.4e-14 there."""
@@ -217,28 +217,4 @@ def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Arr
                 _mended(work, used)
                 for j in range(used):
                     v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
-    return v
-
-
-@njit(cache=True, error_model="numpy")
-def bouc_wen_power(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array, n: float) -> Array:
-    """Bouc-Wen with any n >= 1, integrated adaptively in u to a relative error of 1e-8 or better.
-
-    n : smoothness of the loop, 1; the other arguments, and the result, as in `bouc_wen`
-
-    [1] eq. (1)  Ours: h = 0 at the first sample; the cut RUNAWAY, which also ends a pole.
-    """
-    samples, columns = u.shape
-    swarm = d.size
-    length, _ = paths(u)
-    v = np.empty((samples, swarm))
-    for j in range(swarm):
-        column = j if columns > 1 else 0
-        loop = alpha[j] * d[j]
-        bound = RUNAWAY * abs(loop) * length[column]
-        h = 0.0
-        v[0, j] = d[j] * u[0, column]
-        for i in range(1, samples):
-            h = moved(h, u[i, column] - u[i - 1, column], loop, beta[j], gamma[j], n, bound)
-            v[i, j] = d[j] * u[i, column] - h
     return v

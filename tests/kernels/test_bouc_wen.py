@@ -7,7 +7,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hysteresis_bench.kernels.bouc_wen import bouc_wen, bouc_wen_power
+from hysteresis_bench.kernels.bouc_wen import bouc_wen
+from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
+from hysteresis_bench.kernels.bouc_wen_step import moved
 
 PUBLISHED = (0.304225, 0.675313, 0.497724, 1.045814)  # PEA paper, Table 2, G-Pmix
 
@@ -87,11 +89,30 @@ def test_steps_on_which_an_exponential_overflows_agree_with_the_plain_twin(steps
         assert np.abs(found - expected[:, None]).max() < 1e-13 * np.ptp(expected)
 
 
-@pytest.mark.parametrize("n", [1.0, 1.5, 2.0, 3.0])
-def test_other_powers_agree_with_a_tight_ode_solution(n):
-    u = sine(600)
-    reference = by_ode(u[:, 0], PUBLISHED, n)
-    assert np.abs(bouc_wen_power(u, *columns(PUBLISHED), n)[:, 0] - reference).max() < 1e-8 * np.ptp(reference)
+@pytest.mark.parametrize("n", [1.2, 1.5, 2.0, 2.7, 3.0, 6.5])
+@pytest.mark.parametrize("samples", [40, 600, 6000])
+def test_other_powers_agree_with_a_tight_ode_solution(n, samples):
+    u = sine(samples)
+    for p in (PUBLISHED, (0.6, 1.5, -0.9, 1.8), (0.6, 0.3, 1.9, 1.8)):
+        reference = by_ode(u[:, 0], p, n)
+        error = np.abs(bouc_wen_power(u, *columns(p), n)[:, 0] - reference).max()
+        assert error < (1e-9 if n in (2.0, 3.0) else 1e-8) * np.ptp(p[3] * u[:, 0] - reference)
+
+
+@pytest.mark.parametrize("n", [1.3, 2.0, 3.0, 4.0])
+def test_other_powers_of_a_swarm_agree_with_the_step_for_one_particle(n):
+    rng = np.random.default_rng(9)
+    swarm = 70  # more than one block of lanes
+    alpha, beta, gamma, d = (rng.uniform(low, 3, swarm) for low in (-1, 0.1, -0.05, -1))
+    for u in (np.cumsum(rng.normal(size=(60, 1)), axis=0), np.cumsum(0.02 * rng.normal(size=(400, swarm)), axis=0)):
+        simulated = bouc_wen_power(u, alpha, beta, gamma, d, n)
+        for j in range(0, swarm, 7):
+            inputs, h, expected = u[:, j % u.shape[1]], 0.0, [0.0]
+            for step in np.diff(inputs):
+                h = moved(h, step, alpha[j] * d[j], beta[j], gamma[j], n, np.inf)
+                expected.append(h)
+            found = d[j] * inputs - simulated[:, j]
+            np.testing.assert_allclose(found, expected, rtol=0, atol=2e-9 * np.ptp(expected))
 
 
 @pytest.mark.parametrize("samples", [20, 300, 3000])

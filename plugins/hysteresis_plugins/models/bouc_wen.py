@@ -28,7 +28,7 @@ OFFSET_SHARE = 0.02
 class BoucWen(Model):
     """Bouc-Wen: a linear response less a hysteresis that relaxes along the input's path.
 
-    n : smoothness of the loop, at least 1; 1 is exact and fast, others are integrated adaptively
+    n : smoothness of the loop, at least 1; 1 is exact and fastest, others are integrated to 1e-8 or better
 
     Ours: h = 0 at the first sample, so v(0) = d u(0). The paper gives no search box; ours for its data
     (volts, micrometres) is 0 to 5 for every parameter.
@@ -55,11 +55,12 @@ class BoucWen(Model):
         return with_eddy_current(self._plain, self._dragged, signal, p)
 
     def _plain(self, u: Array, p: Any) -> Array:
-        from hysteresis_bench.kernels.bouc_wen import bouc_wen, bouc_wen_power
+        from hysteresis_bench.kernels.bouc_wen import bouc_wen
+        from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
 
         if self.n == 1.0:
             return bouc_wen(u, p.alpha, p.beta, p.gamma, p.d)
-        return bouc_wen_power(u, p.alpha, p.beta, p.gamma, p.d, self.n)
+        return bouc_wen_power(u, p.alpha, p.beta, p.gamma, p.d, float(self.n))
 
     def _dragged(self, time: Array, u: Array, coefficient: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.eddy_bouc_wen import eddy_bouc_wen
