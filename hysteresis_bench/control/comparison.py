@@ -12,13 +12,13 @@ import pandas as pd
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.closed_loop import Controller, Run, track
+from hysteresis_bench.control.controllers.pi import ProportionalIntegral
+from hysteresis_bench.control.controllers.sliding_mode import SlidingMode
+from hysteresis_bench.control.controllers.tuning import tune_pi, tune_sliding_mode
 from hysteresis_bench.control.feed_forward import FeedForward, feed_forward
 from hysteresis_bench.control.observer import observer
-from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
-from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.suitability import check_units, range_words
-from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.seeds import generator
 

@@ -16,7 +16,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.asked import asked_faults
-from hysteresis_bench.fit.identifiability import Identifiability, analyse
+from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model

@@ -14,10 +14,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from hysteresis_bench.testing.effects import EffectContract as EffectContract
-    from hysteresis_bench.testing.models import ModelContract as ModelContract
-    from hysteresis_bench.testing.optimizers import OptimizerContract as OptimizerContract
-    from hysteresis_bench.testing.rigs import RigContract as RigContract
+    from hysteresis_bench.testing.contracts.effects import EffectContract as EffectContract
+    from hysteresis_bench.testing.contracts.models import ModelContract as ModelContract
+    from hysteresis_bench.testing.contracts.optimizers import OptimizerContract as OptimizerContract
+    from hysteresis_bench.testing.contracts.rigs import RigContract as RigContract
 else:
     _MODULES = {
         "EffectContract": "effects",
@@ -29,5 +29,5 @@ else:
     def __getattr__(name: str) -> Any:
         """The contracts, imported when they are first asked for: pytest loads this package in every run."""
         if name in _MODULES:
-            return getattr(import_module(f"{__name__}.{_MODULES[name]}"), name)
+            return getattr(import_module(f"{__name__}.contracts.{_MODULES[name]}"), name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

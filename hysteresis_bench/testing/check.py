@@ -9,12 +9,12 @@ from dataclasses import dataclass
 
 from hysteresis_bench import registry
 from hysteresis_bench.study.pool import run_tickets
-from hysteresis_bench.testing.contract import Broken, promises
-from hysteresis_bench.testing.effects import EffectContract
-from hysteresis_bench.testing.models import ModelContract
-from hysteresis_bench.testing.optimizers import OptimizerContract
+from hysteresis_bench.testing.contracts.contract import Broken, promises
+from hysteresis_bench.testing.contracts.effects import EffectContract
+from hysteresis_bench.testing.contracts.models import ModelContract
+from hysteresis_bench.testing.contracts.optimizers import OptimizerContract
+from hysteresis_bench.testing.contracts.rigs import RigContract
 from hysteresis_bench.testing.plugin import PluginContract
-from hysteresis_bench.testing.rigs import RigContract
 from hysteresis_bench.testing.speed import speed
 
 CONTRACTS: dict[registry.Kind, type[PluginContract]] = {

@@ -11,7 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis.search import systems
 from hysteresis_bench.testing.check import BROKEN, CONTRACTS, KEPT, Question, answer, check
-from hysteresis_bench.testing.contract import promises
+from hysteresis_bench.testing.contracts.contract import promises
 
 FOLDER = str(Path(__file__).parents[1] / "broken_plugins")
 CACHES = (registry._points, registry.offered, registry.effect, systems._built)

@@ -14,13 +14,13 @@ from hysteresis_bench.commands.control import control
 from hysteresis_bench.compose import System
 from hysteresis_bench.control.closed_loop import Target, track
 from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare
+from hysteresis_bench.control.controllers.pi import Memory, ProportionalIntegral
+from hysteresis_bench.control.controllers.sliding_mode import SlidingMode
+from hysteresis_bench.control.controllers.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer
-from hysteresis_bench.control.pi import Memory, ProportionalIntegral
 from hysteresis_bench.control.references import Reference, published_references
-from hysteresis_bench.control.sliding_mode import SlidingMode
 from hysteresis_bench.control.trajectory import follow, read_trajectory
-from hysteresis_bench.control.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, read_model, write_model
 from hysteresis_bench.fit.preparation import Preparation

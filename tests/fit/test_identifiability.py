@@ -9,8 +9,8 @@ import pytest
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.fit.combinations import Combination, blind_groups, sparsest
-from hysteresis_bench.fit.identifiability import analyse, profile
+from hysteresis_bench.fit.identifiability.analysis import analyse, profile
+from hysteresis_bench.fit.identifiability.combinations import Combination, blind_groups, sparsest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space

@@ -8,7 +8,7 @@ import pytest
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.fitting import fit_records
-from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse
 from hysteresis_bench.fit.least_squares import polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem

@@ -23,7 +23,7 @@ from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import response_table, simulated
-from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.settling import gap_after, not_closed

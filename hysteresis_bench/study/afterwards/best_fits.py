@@ -10,7 +10,7 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.accuracy import response_table, simulated
-from hysteresis_bench.fit.identifiability import analyse, profile
+from hysteresis_bench.fit.identifiability.analysis import analyse, profile
 from hysteresis_bench.fit.least_squares import polish
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.recovery import recovery

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space

@@ -12,7 +12,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.signals import INDEX, Record
-from hysteresis_bench.testing.contract import expect
+from hysteresis_bench.testing.contracts.contract import expect
 from hysteresis_bench.testing.examples import locked, measured
 from hysteresis_bench.testing.parameters import expect_described, expect_sound
 from hysteresis_bench.testing.plugin import PluginContract

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.fit.combinations import Blindness, Combination, blind_groups, listed
+from hysteresis_bench.fit.identifiability.combinations import Blindness, Combination, blind_groups, listed
 from hysteresis_bench.fit.objective import Problem
 
 STEP = np.finfo(float).eps ** (1 / 3)

@@ -13,7 +13,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.signals import INDEX, Record
-from hysteresis_bench.testing.contract import expect
+from hysteresis_bench.testing.contracts.contract import expect
 from hysteresis_bench.testing.examples import QUANTITIES, Cubic, locked, measured
 from hysteresis_bench.testing.hiding import changes
 from hysteresis_bench.testing.parameters import expect_described, expect_sound

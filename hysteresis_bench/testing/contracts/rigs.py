@@ -10,7 +10,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.signals import Dataset, Record
-from hysteresis_bench.testing.contract import Broken, expect
+from hysteresis_bench.testing.contracts.contract import Broken, expect
 from hysteresis_bench.testing.plugin import PluginContract
 
 RATE = 1000.0
