@@ -34,12 +34,11 @@ def list_plugins(what: str | None) -> None:
 
 def _list_kind(kind: registry.Kind, console: Console) -> None:
     table = Table(title=kind, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
-    for name in registry.names(kind):
-        plugin = registry.load(kind, name)
+    for plugin in registry.registered(kind):
         summary = plugin.summary
         if kind == "rigs" and plugin.loaded is not None:
             summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
-        table.add_row(f"  {name}", escape(summary), style="red" if plugin.fault else "")
+        table.add_row(f"  {plugin.name}", escape(summary), style="red" if plugin.fault else "")
     if kind == "effects":
         for name, models in registry.offered().items():
             effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]

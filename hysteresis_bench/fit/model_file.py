@@ -21,6 +21,8 @@ from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.signals import Dataset, Record
 
 SCHEMA = 1
+LARGEST = 1e100
+"""Beyond which no parameter of anything lies."""
 
 
 @dataclass(frozen=True)
@@ -75,12 +77,15 @@ class FittedModel:
         return np.array([self.parameters[parameter.name].value for parameter in self.system.parameters])
 
     def predict(self, dataset: Dataset) -> Dataset:
-        """The records with their output replaced by the prediction."""
+        """The records with their output replaced by the prediction. Raises UserError where that is not finite."""
         system, values = self.system, self.values[:, None]
 
         def predicted(record: Record) -> Record:
             units = {**record.units, "output": self.units["output"]}
-            return replace(record, output=system.respond(self.preparation(record), values)[:, 0], units=units)
+            output = system.respond(self.preparation(record), values)[:, 0]
+            if not np.isfinite(output).all():
+                raise UserError(record.name, "the model's prediction is not finite: its parameters are no model of it.")
+            return replace(record, output=output, units=units)
 
         return dataset.map(predicted)
 
@@ -184,10 +189,17 @@ def read_model(path: Path) -> FittedModel:
             content.get("created_by", {}),
         )
         missing = [p.name for p in fitted.system.parameters if p.name not in estimates]
+        numbers = {**{name: estimate.value for name, estimate in estimates.items()}, **fitted.fixed}
+        wrong = [f"{name} = {value} is no number to predict with." for name, value in numbers.items() if _wild(value)]
     except (KeyError, TypeError) as error:
         raise UserError(str(path), f"is not a fitted model of schema {SCHEMA}: {error} is missing or wrong.") from None
     except ValueError as error:
         raise UserError(str(path), f"{error}") from None
-    if missing:
-        raise UserError(str(path), [f'parameter "{name}" is missing.' for name in missing])
+    if missing or wrong:
+        raise UserError(str(path), [f'parameter "{name}" is missing.' for name in missing] + wrong)
     return fitted
+
+
+def _wild(value: float) -> bool:
+    """NaN, infinite, or so large that it only overflows."""
+    return not abs(value) < LARGEST
