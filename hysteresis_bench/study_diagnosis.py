@@ -23,8 +23,8 @@ from hysteresis_bench.report.diagnosis.figures import fewer
 from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, RESPONSES, read_closing
+from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.study.lock import alone
-from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import closing_dataset
 from hysteresis_bench.study.run import Progress, run_study
 from hysteresis_bench.study.study_file import Study, read_study
@@ -88,7 +88,8 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     out.mkdir()
     begun = time.monotonic()
     ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
-    ((_, _, status, reason),) = run_tickets([ticket], run_closing, 1, LIMIT)
+    with Pool(Work(at_once(run_closing), LIMIT), 1) as pool:
+        ((_, _, status, reason),) = pool.run([ticket])
     outcome = {
         "asked": asked,
         "hidden": hidden_names(closing_dataset(study, data)),

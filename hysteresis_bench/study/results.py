@@ -15,6 +15,7 @@ import pandas as pd
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
+from hysteresis_bench.study.origin import mixed
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import Study, check_study
 
@@ -22,7 +23,17 @@ STUDY, PUBLISHED, PROVENANCE = "study.toml", "published.toml", "provenance.json"
 TRIALS, SUMMARY, RESPONSES, REPORT = "trials.csv", "summary.csv", "responses.csv", "report.html"
 IDENTIFIABILITY, STAGES = "identifiability.json", "stages.csv"
 
-STATUSES = ("done", "finished-early", "raised", "timed-out", "crashed", "out-of-memory")
+STATUSES = (
+    "done",
+    "finished-early",
+    "no-finite-loss",
+    "raised",
+    "timed-out",
+    "crashed",
+    "out-of-memory",
+    "killed",
+    "not-started",
+)
 FINISHED = ("done", "finished-early")
 """Statuses of a trial that has a result."""
 
@@ -41,6 +52,7 @@ class Results:
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
+    mixed : a sentence for each thing in which trials differ that should not: package versions, processors
     closing : the diagnosis at the end; None where the study asks for none, or none was tried
     """
 
@@ -54,6 +66,7 @@ class Results:
     identifiability: Mapping[str, Any]
     stages: pd.DataFrame
     closing: Closing | None = None
+    mixed: tuple[str, ...] = ()
 
     def _repr_html_(self) -> str:
         """For a notebook: by problem and optimizer, the trials, how many have a result, and the median error."""
@@ -71,7 +84,7 @@ def read_results(folder: Path) -> Results:
     study = check_study(tomllib.loads((folder / STUDY).read_text(encoding="utf-8")), str(folder / STUDY))
     published = folder / PUBLISHED
     with Store(folder) as store:
-        trials, traces = store.table(), store.traces()
+        trials, traces, origins = store.table(), store.traces(), store.origins()
     return Results(
         folder,
         study,
@@ -83,6 +96,7 @@ def read_results(folder: Path) -> Results:
         _json(folder / IDENTIFIABILITY),
         _csv(folder / STAGES),
         read_closing(folder) if study.closing else None,
+        mixed(origins),
     )
 
 
