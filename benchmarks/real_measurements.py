@@ -25,7 +25,9 @@ from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.report.diagnosis.figures import waterfall
-from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render
+from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Paragraph, Table
+from hysteresis_bench.report.shared.page import Page, Section, files_beside
+from hysteresis_bench.report.shared.text import NONE, listed, number, sentence
 from hysteresis_bench.signals import Dataset, Record
 
 ROOT = Path(__file__).parent.parent
@@ -272,22 +274,30 @@ def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mappin
     parts = []
     for one in rows:
         case = next((case for case in CASES if case.name == one["case"]), None)
-        if case is None:
-            continue
-        mine = [(step["step"], float(step["rmse"])) for step in steps if step["case"] == case.name]
-        held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
-        drawn = waterfall(folder, mine, held_out, {"output": one["unit"]}, "".join(c for c in case.name if c.isalnum()))
-        parts.append((case, one, drawn, _parameters(one)))
-    text = render(
-        "measurements.html.j2",
-        title="Diagnosis of real measurements",
-        kicker=f"{len(parts)} devices and questions",
-        summary=_summary(rows),
-        parts=parts,
-        files=[(NUMBERS, "a row a case"), (STEPS, "the error step by step")],
+        if case is not None:
+            parts.append(_section(folder, case, one, [step for step in steps if step["case"] == case.name]))
+    how = (
+        "By benchmarks/real_measurements.py. The measurements are not part of the project; only what is derived from "
+        "them is kept here."
     )
-    (folder / PAGE).write_text(text, encoding="utf-8")
-    return folder / PAGE
+    made = Section(
+        "made", "How it was made", [how, files_beside({NUMBERS: "a row a case", STEPS: "error step by step"})]
+    )
+    sections = [Section("summary", "", [_summary(rows)]), *parts, made]
+    return Page("Diagnosis of real measurements", f"{len(parts)} devices and questions", sections).write(folder / PAGE)
+
+
+def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[Mapping[str, str]]) -> Section:
+    """A case: what is known of the device, what was found, step by step."""
+    held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
+    bars = [(step["step"], float(step["rmse"])) for step in steps]
+    name = "".join(c for c in case.name if c.isalnum())
+    drawn, parameters = waterfall(folder, bars, held_out, units={"output": one["unit"]}, name=name), _parameters(one)
+    ties = [f"These records do not tell apart: {one['ties']}."] if one["ties"] else []
+    advice = [one["advice"]] if one["advice"] else []
+    blocks: list[Block] = [Paragraph(sentence(f"{case.device}: {case.known}"), "note"), one["headline"]]
+    blocks += [sentence(one["hysteresis"]), *ties, *advice, Figures([drawn])]
+    return Section("", f"{case.name[0].upper()}{case.name[1:]}", [*blocks, *([parameters] if parameters.rows else [])])
 
 
 def _summary(rows: Sequence[Mapping[str, str]]) -> Table:

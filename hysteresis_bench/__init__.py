@@ -39,12 +39,11 @@ if not TYPE_CHECKING:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def load(*files: Path | str, held_out: Sequence[str] = (), skip: float | None = None) -> Dataset:
-    """Data CSV files as one data set.
+def load(*files: Path | str, held_out: Sequence[str] = ()) -> Dataset:
+    """Data CSV files as one data set, in the units of the first record that states them; `notes` tell of conversions.
 
     files : CSV with the columns time, input, output, units in brackets
     held_out : names of records (a file's stem, with ":run" where there is a run column) that are not fitted
-    skip : the first so many units of time of every record are simulated but not scored
     Raises UserError naming file, row and column.
     """
     from hysteresis_bench.data_files import read_data
@@ -57,13 +56,7 @@ def load(*files: Path | str, held_out: Sequence[str] = (), skip: float | None = 
         raise UserError("held out", f"{error}.") from None
     if not dataset.fitted:
         raise UserError("held out", "every record is held out; none is left to fit.")
-    if skip is None:
-        return dataset
-    for record in dataset.records:
-        if record.skip(skip).history > record.time.size - 2:
-            lasts = float(record.time[-1] - record.time[0])
-            raise UserError(record.name, f"skipping {skip:g} leaves nothing of a record that lasts {lasts:g}.")
-    return dataset.map(lambda record: record.skip(skip))
+    return dataset
 
 
 def measure(rig: str, *experiments: str, seed: int = 0, settings: Mapping[str, Any] | None = None) -> Dataset:
@@ -137,7 +130,9 @@ def diagnose(
 
 
 def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
-    """The records of data CSV files with their output replaced by a fitted model's prediction.
+    """The records of data CSV files, in a fitted model's units, with their output replaced by its prediction.
+
+    What prepared the fit is done again (a closed loop is repeated as often as there), and `notes` tell it.
 
     model : a fitted model, or the path of its model.json
     files : CSV with the columns time and input; an output is not needed
@@ -147,7 +142,7 @@ def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
     from hysteresis_bench.fit.model_file import FittedModel, read_model
 
     fitted = model if isinstance(model, FittedModel) else read_model(Path(model))
-    return fitted.predict(read_data([Path(file) for file in files], output_needed=False))
+    return fitted.predict(read_data([Path(file) for file in files], output_needed=False, units=fitted.units))
 
 
 def control(
@@ -193,7 +188,7 @@ def run_study(
     """Run or continue a study, and the diagnosis at its end where it asks for one; then read its results.
 
     path : a study file (TOML);  trials : overrides the file's number;  jobs : worker processes, all cores by default
-    out : the results folder; default: results/NAME
+    out : the results folder; default: runs/NAME
     on_progress : called after every trial, and once before the first
     Raises UserError telling every fault of the file, of the data, or of the folder.
     """

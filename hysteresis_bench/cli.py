@@ -3,26 +3,25 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 import click
 from rich.console import Console
 from rich.markup import escape
 
-from hysteresis_bench.commands.console import plain_console, say_path
+from hysteresis_bench.commands.check_plugin import check_plugin
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.list import list_plugins
+from hysteresis_bench.commands.measure import measure
+from hysteresis_bench.commands.new_plugin import new_plugin
+from hysteresis_bench.commands.predict import predict
 from hysteresis_bench.commands.report import report
 from hysteresis_bench.commands.run import run
 from hysteresis_bench.errors import UserError, nearest
 
 USER_AT_FAULT = 2
-
-existing_file = click.Path(path_type=Path)
 
 
 class Group(click.Group):
@@ -32,8 +31,11 @@ class Group(click.Group):
         try:
             return super().main(*args, **kwargs)
         except UserError as error:
-            Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(str(error))}", highlight=False)
-            sys.exit(USER_AT_FAULT)
+            told = str(error)
+        except OSError as error:  # a folder that cannot be written, a full disk
+            told = f"{error.filename or self.name}: {error.strerror or error}."
+        Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
+        sys.exit(USER_AT_FAULT)
 
     def resolve_command(self, context: click.Context, args: list[str]) -> Any:
         if args and self.get_command(context, args[0]) is None:
@@ -48,32 +50,5 @@ def main() -> None:
     and find what the model lacks."""
 
 
-@main.command()
-@click.argument("model", type=existing_file)
-@click.argument("data", type=existing_file, nargs=-1, required=True)
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
-def predict(model: Path, data: Sequence[Path], out: Path) -> None:
-    """Predict the output of DATA.csv ... with a fitted MODEL.json."""
-    from hysteresis_bench import predict as predict_output
-    from hysteresis_bench.data_files import write_csv
-
-    write_csv(out, predict_output(model, *data))
-    say_path(plain_console(), "prediction", out)
-
-
-@main.command()
-@click.argument("rig")
-@click.argument("experiment")
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
-@click.option("--seed", type=int, default=0, show_default=True)
-def measure(rig: str, experiment: str, out: Path, seed: int) -> None:
-    """Take data from a virtual RIG (see `list rigs`)."""
-    from hysteresis_bench import measure as measure_on_rig
-    from hysteresis_bench.data_files import write_csv
-
-    write_csv(out, measure_on_rig(rig, experiment, seed=seed))
-    say_path(plain_console(), "data", out)
-
-
-for command in (control, diagnose, fit, list_plugins, report, run):
+for command in (check_plugin, control, diagnose, fit, list_plugins, measure, new_plugin, predict, report, run):
     main.add_command(command)

@@ -233,6 +233,9 @@ class Plant(Protocol):
 class SteppedRig(Rig):
     """A rig that a controller can drive, sample by sample."""
 
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Of "time", "input" and "output"; a model in others is refused. One that is absent is not compared."""
+
     @abstractmethod
     def plant(self, rate: float) -> Plant:
         """The rig as a sampled actuator; rate : samples a second."""

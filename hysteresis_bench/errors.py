@@ -23,7 +23,9 @@ class UserError(Exception):
             return f"{self.where}: {self.faults[0]}"
         return f"{self.where} has {len(self.faults)} faults: " + " · ".join(self.faults)
 
-    def __reduce__(self) -> tuple:  # exceptions with two arguments do not survive pickling unaided
+    def __reduce__(
+        self,
+    ) -> tuple[type[UserError], tuple[str, list[str]]]:  # exceptions with two arguments do not survive pickling unaided
         return type(self), (self.where, self.faults)
 
 

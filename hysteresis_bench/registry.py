@@ -10,13 +10,12 @@ from functools import cache
 from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal
 
-from hysteresis_bench.contracts import Acts, Effect, Family, Model, Optimizer, Rig
+from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
+from hysteresis_bench.declarations import declaration_faults
 from hysteresis_bench.errors import nearest, told
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
-WORDS = {"acts": typing.get_args(Acts), "family": typing.get_args(Family)}
-"""What an effect may say of itself."""
 
 SHIPPED = "hysteresis-bench"
 """The distribution of the framework and of the plugins that come with it."""
@@ -124,15 +123,8 @@ def _checked(kind: Kind, name: str, point: EntryPoint) -> tuple[type | None, str
         loaded = point.load()
     except (Exception, SystemExit) as error:  # a plugin's own fault, whatever it is, must not stop the others
         return None, told(error)
-    contract = CONTRACTS[kind]
-    if not (isinstance(loaded, type) and issubclass(loaded, contract)):
-        return None, f"{point.value} does not keep the contract {contract.__name__}"
-    undeclared = [attribute for attribute in contract.__annotations__ if not hasattr(loaded, attribute)]
-    if missing := sorted({*getattr(loaded, "__abstractmethods__", ()), *undeclared}):
-        return None, f"{loaded.__name__} lacks {', '.join(missing)}"
-    for attribute, known in WORDS.items() if kind == "effects" else ():
-        if (word := getattr(loaded, attribute)) not in known:
-            return None, f'{loaded.__name__}: no {attribute} "{word}". {nearest(word, known)}'
+    if found := declaration_faults(loaded, CONTRACTS[kind]):
+        return None, " · ".join(found)
     return loaded, ""
 
 
@@ -165,7 +157,7 @@ def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:
     plugin = load(kind, name)
     if plugin.loaded is None:
         return [f'{kind[:-1]} "{name}" is broken: {plugin.fault}']
-    fields = _settings(plugin.loaded)
+    fields = settings_of(plugin.loaded)
     found = []
     for key, value in settings.items():
         if key not in fields:
@@ -219,7 +211,7 @@ def build_effects(
     )
 
 
-def _settings(plugin: type) -> dict[str, Any]:
+def settings_of(plugin: type) -> dict[str, Any]:
     """Names and types of a plugin's settings: the fields of its dataclass."""
     if not dataclasses.is_dataclass(plugin):
         return {}

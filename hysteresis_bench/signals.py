@@ -136,11 +136,13 @@ class Dataset:
     """Records, and which of them are fitted and which are held out (opened once, at the end).
 
     hidden : what a virtual rig hid in its data, by name; empty for measurements
+    notes : what was done to the records when they were read or predicted, a sentence each
     """
 
     records: tuple[Record, ...]
     held_out_names: tuple[str, ...] = ()
     hidden: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     @property
     def fitted(self) -> tuple[Record, ...]:
@@ -197,4 +199,4 @@ def joined(*datasets: Dataset) -> Dataset:
         raise ValueError(f"two records are both named {doubled[0]!r}; names must differ")
     hidden = {key: value for dataset in datasets for key, value in dataset.hidden.items()}
     held_out = tuple(name for dataset in datasets for name in dataset.held_out_names)
-    return Dataset(records, held_out, hidden)
+    return Dataset(records, held_out, hidden, tuple(note for dataset in datasets for note in dataset.notes))

@@ -13,19 +13,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis.figures import fewer
-from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 from hysteresis_bench.signals import Dataset
-from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, RESPONSES, read_closing
+from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
 from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.problems import closing_dataset
+from hysteresis_bench.study.reader import Reader
 from hysteresis_bench.study.run import Progress, run_study
 from hysteresis_bench.study.study_file import Study, read_study
 
@@ -80,7 +77,7 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     run, one that is there is kept as long as the same is asked. A failure ends no study: closing.json tells it.
     """
     asked = asked_for(study)
-    before = read_closing(results)
+    before = read_closing(Reader(results))
     if before and before.finished and before.outcome["asked"] == asked:
         return
     out = results / f"{CLOSING}.part"
@@ -119,7 +116,7 @@ def hidden_names(dataset: Dataset) -> list[str]:
 
 
 def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
-    """Diagnose and write diagnosis.json, model.json, responses.csv and the page of the diagnosis."""
+    """Diagnose and write diagnosis.json, model.json and responses.csv."""
     study = Study.model_validate_json(ticket.study)
     assert study.closing is not None
     spec, out = study.closing, Path(ticket.out)
@@ -132,8 +129,4 @@ def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
     except UserError as error:
         return DiagnosisEnd("raised", " ".join(error.faults))
     write_diagnosis(out, found)
-    held_out = found.responses[found.responses["role"] == "held-out"]
-    parts = [fewer(rows) for _, rows in held_out.groupby("record", sort=False)]
-    pd.concat(parts).to_csv(out / RESPONSES, index=False, float_format="%.7g")
-    write_diagnosis_page(out, found)
     return DiagnosisEnd(DONE)

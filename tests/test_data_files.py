@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import load
-from hysteresis_bench.data_files import read_csv, read_data, write_csv
+from hysteresis_bench.data_files import read_data, write_csv
 from hysteresis_bench.errors import UserError
 
 
@@ -17,7 +17,7 @@ def write(folder, text, name="bench.csv"):
 def test_units_runs_and_further_columns(tmp_path):
     path = write(tmp_path, "Time [ms], input [V],output[um],run,temperature [degC],remark\n"
                            "0,1,2,a,20,x\n1,2,3,a,21,y\n0,5,6,b,22,z\n2,6,7,b,23,z\n")  # fmt: skip
-    dataset = read_csv(path)
+    dataset = read_data([path])
     assert dataset.names == ("bench:a", "bench:b")
     first, second = dataset.records
     assert first.units["input"] == "V"
@@ -29,7 +29,7 @@ def test_units_runs_and_further_columns(tmp_path):
 
 
 def test_time_as_an_index_switches_rate_effects_off(tmp_path):
-    record = read_csv(write(tmp_path, "time [sample],input,output\n0,1,2\n1,2,3\n")).records[0]
+    record = read_data([write(tmp_path, "time [sample],input,output\n0,1,2\n1,2,3\n")]).records[0]
     assert not record.timed
     assert not record.signal.timed
 
@@ -57,36 +57,36 @@ def test_time_as_an_index_switches_rate_effects_off(tmp_path):
 def test_faults_name_file_row_and_column(tmp_path, text, told):
     path = write(tmp_path, text)
     with pytest.raises(UserError) as error:
-        read_csv(path)
+        read_data([path])
     assert told in str(error.value)
     assert "bench.csv" in str(error.value)
 
 
 def test_all_faults_at_once(tmp_path):
     with pytest.raises(UserError, match="has 2 faults"):
-        read_csv(write(tmp_path, "time,input,output\n0,x,2\n1,2,y\n"))
+        read_data([write(tmp_path, "time,input,output\n0,x,2\n1,2,y\n")])
 
 
 def test_a_file_that_is_not_there(tmp_path):
     with pytest.raises(UserError, match="No such file"):
-        read_csv(tmp_path / "none.csv")
+        read_data([tmp_path / "none.csv"])
 
 
 def test_units_must_agree_and_names_differ(tmp_path):
     volts = write(tmp_path, "time,input [V],output\n0,1,2\n1,2,3\n", "a.csv")
-    millivolts = write(tmp_path, "time,input [mV],output\n0,1,2\n1,2,3\n", "b.csv")
-    with pytest.raises(UserError, match="input is in mV"):
-        read_data([volts, millivolts])
+    newtons = write(tmp_path, "time,input [N],output\n0,1,2\n1,2,3\n", "b.csv")
+    with pytest.raises(UserError, match=r'b.csv: column "input" is in N, .* in V'):
+        read_data([volts, newtons])
     with pytest.raises(UserError, match="two records are both named"):
         read_data([volts, volts])
 
 
 def test_written_as_it_is_read(tmp_path):
     text = "time [ms],input [V],output [um],run\n0,1,2,a\n1,2,3.25,a\n0,5,6,b\n2,6,7,b\n"
-    dataset = read_csv(write(tmp_path, text))
+    dataset = read_data([write(tmp_path, text)])
     again = tmp_path / "again.csv"
     write_csv(again, dataset)
-    back = read_csv(again)
+    back = read_data([again])
     for one, other in zip(dataset.records, back.records, strict=True):
         assert np.array_equal(one.output, other.output)
         assert np.array_equal(one.time, other.time)
@@ -98,14 +98,20 @@ def test_prediction_needs_no_output_and_no_moving_input(tmp_path):
     assert dataset.records[0].output is None
 
 
-def test_held_out_and_skip(tmp_path):
+def test_history_is_written_and_read_back(tmp_path):
+    dataset = read_data([write(tmp_path, "time,input,output,run\n0,1,2,a\n1,2,3,a\n2,3,3,a\n0,5,6,b\n2,6,7,b\n")])
+    write_csv(tmp_path / "again.csv", dataset.map(lambda record: record.skip(1.0)))
+    back = read_data([tmp_path / "again.csv"]).records
+    assert [record.history for record in back] == [1, 1]
+    assert back[0].measured.tolist() == [3, 3]
+    with pytest.raises(UserError, match='column "history": 1 for leading samples'):
+        read_data([write(tmp_path, "time,input,output,history\n0,1,2,0\n1,2,3,1\n2,2,3,0\n")])
+
+
+def test_held_out(tmp_path):
     path = write(tmp_path, "time,input,output,run\n0,1,2,a\n1,2,3,a\n2,3,3,a\n0,5,6,b\n2,6,7,b\n4,7,7,b\n")
-    dataset = load(path, held_out=["bench:b"], skip=1.0)
-    assert [record.name for record in dataset.fitted] == ["bench:a"]
-    assert dataset.fitted[0].measured.tolist() == [3, 3]
+    assert [record.name for record in load(path, held_out=["bench:b"]).fitted] == ["bench:a"]
     with pytest.raises(UserError, match="no record 'c'"):
         load(path, held_out=["c"])
     with pytest.raises(UserError, match="none is left"):
         load(path, held_out=["bench:a", "bench:b"])
-    with pytest.raises(UserError, match="leaves nothing"):
-        load(path, skip=10.0)

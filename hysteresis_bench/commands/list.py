@@ -12,6 +12,7 @@ from rich.table import Table
 
 from hysteresis_bench import registry
 from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.commands.describe import describe, kinds_of
 from hysteresis_bench.errors import UserError, nearest
 
 KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
@@ -20,16 +21,27 @@ KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
 @click.command("list")
 @click.argument("what", required=False)
 def list_plugins(what: str | None) -> None:
-    """List models, effects, optimizers, rigs or studies; all of them without an argument."""
+    """List models, effects, optimizers, rigs or studies; all of them without an argument. With the name of a plugin
+    tell what it is: parameters, settings, and where it comes from."""
     known = (*KINDS, "studies")
-    if what is not None and what not in known:
-        raise UserError("list", f'there are no "{what}". {nearest(what, known)}')
     console = plain_console()
+    if what is not None and what not in known:
+        if not kinds_of(what):
+            everything = {*known, *registry.offered(), *(name for kind in KINDS for name in registry.names(kind))}
+            raise UserError("list", f'there are no "{what}". {_nearest(what, known, everything)}')
+        describe(what, console)
+        return
     for kind in KINDS:
         if what in (None, kind):
             _list_kind(kind, console)
     if what in (None, "studies"):
         _list_studies(console)
+
+
+def _nearest(what: str, kinds: tuple[str, ...], everything: set[str]) -> str:
+    """The kinds that can be listed, and what was meant among all names."""
+    told, _, meant = nearest(what, everything).partition(". ")
+    return f"Known: {', '.join(kinds)}, or the name of a plugin. {meant}" if told else ""
 
 
 def _list_kind(kind: registry.Kind, console: Console) -> None:
@@ -38,7 +50,8 @@ def _list_kind(kind: registry.Kind, console: Console) -> None:
         summary = plugin.summary
         if kind == "rigs" and plugin.loaded is not None:
             summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
-        table.add_row(f"  {plugin.name}", escape(summary), style="red" if plugin.fault else "")
+        origin = f"{plugin.distribution} {plugin.version}"
+        table.add_row(f"  {plugin.name}", escape(summary), escape(origin), style="red" if plugin.fault else "")
     if kind == "effects":
         for name, models in registry.offered().items():
             effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]

@@ -16,10 +16,10 @@ def report(results: Path, open_it: bool) -> None:
     """Write the report of a results folder again."""
     from hysteresis_bench.diagnosis_study.results import STUDY
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
-    from hysteresis_bench.report.diagnosis_study.page import write_closing_page
+    from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
     from hysteresis_bench.report.study import write_report
 
-    page = write_closing_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
+    page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
     say_path(plain_console(), "report", page)
     if open_it:
         click.launch(str(page))

@@ -9,6 +9,7 @@ import click
 from rich.console import Console
 
 from hysteresis_bench.commands.console import plain_console, say_path
+from hysteresis_bench.commands.outputs import check_results, force_option
 from hysteresis_bench.errors import UserError
 
 DONE, FAILED_TRIALS = 0, 1
@@ -18,8 +19,9 @@ DONE, FAILED_TRIALS = 0, 1
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("--trials", type=click.IntRange(min=1), help="Trials of every optimizer; default: the study file's.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Worker processes; default: all cores.")
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Results folder; default: results/NAME.")
-def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> None:
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Results folder; default: runs/NAME.")
+@force_option
+def run(study: Path, trials: int | None, jobs: int | None, out: Path | None, force: bool) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
     from hysteresis_bench import run_study
     from hysteresis_bench.commands.progress import progress_bar
@@ -29,8 +31,10 @@ def run(study: Path, trials: int | None, jobs: int | None, out: Path | None) -> 
     from hysteresis_bench.report.study.closing_section import closing_in_words
     from hysteresis_bench.report.study.console import print_summary
     from hysteresis_bench.study.results import FINISHED
+    from hysteresis_bench.study.run import default_folder
 
     console = plain_console()
+    check_results(out or default_folder(study), force)
     if is_diagnosis_study(study):
         sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
     check_published_beside(study)
@@ -57,8 +61,7 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
     """A study of diagnosis; returns the exit code."""
     from hysteresis_bench.diagnosis_study.results import read_cases
     from hysteresis_bench.diagnosis_study.run import CaseProgress, run_diagnosis_study
-    from hysteresis_bench.report.diagnosis_study.page import told as answer
-    from hysteresis_bench.report.diagnosis_study.page import write_closing_page
+    from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 
     def on_progress(progress: CaseProgress) -> None:
         if case := progress.case:
@@ -71,5 +74,5 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
         raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
-    say_path(console, "report", write_closing_page(results_folder))
+    say_path(console, "report", write_diagnosis_study_page(results_folder))
     return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE

@@ -17,6 +17,7 @@ from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
+from hysteresis_bench.control.suitability import check_units, range_words
 from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.seeds import generator
@@ -88,9 +89,12 @@ def compare(
     name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
-    Raises ValueError where the model has no inverse, its linear section is unstable, or the sampling is too slow.
+    Raises ValueError where units or ranges do not suit, the model has no inverse, its linear section is unstable, or
+    the sampling is too slow.
     """
     forward = feed_forward(fitted)
+    check_units(fitted, forward, rig, name)
+    told = range_words(fitted, forward, rig.input_limit, amplitude)
     controllers, tuning = _controllers(forward, 1.0 / rate, _model_error(fitted, amplitude))
     plant, floor = rig.plant(rate), rig.noise_floor
     scores, responses = [], []
@@ -112,7 +116,8 @@ def compare(
             responses.append(_shown(run).assign(**key))
     table = pd.DataFrame(scores)
     conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
-    return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, _warnings(table, forward))
+    warnings = (*told, *_warnings(table, forward, fitted))
+    return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, warnings)
 
 
 def _controllers(
@@ -165,11 +170,16 @@ NOTES = (
 )
 
 
-def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
-    sentences = [
-        f"{row.controller} on {row.reference}: the voltage limit cut {100 * row.saturated_share:.1f} % of the samples."
-        for row in scores[scores["saturated_share"] > 0].itertuples()
-    ]
+def _warnings(scores: pd.DataFrame, forward: FeedForward, fitted: FittedModel) -> list[str]:
+    sentences, cut = [], scores[scores["saturated_share"] > 0]
+    if len(cut):
+        worst = cut.loc[cut["saturated_share"].idxmax()]
+        sentences.append(
+            f"The voltage limit cut samples in {len(cut)} of {len(scores)} runs, at worst "
+            f"{100 * worst['saturated_share']:.1f} % of them ({worst['controller']} on {worst['reference']})."
+        )
+    if fitted.preparation.settle or fitted.preparation.skip:
+        sentences.append("The fit scored no run-in of its records; on the rig every reference begins at rest.")
     if forward.ignored:
         sentences.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
     if forward.linear is None:
@@ -177,4 +187,4 @@ def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
             "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
             f"because the model does not know where the actuator resonates. Fit {registry.HAMMERSTEIN} for both."
         )
-    return tuple(sentences)
+    return sentences

@@ -16,11 +16,11 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.control.inverse import BoucWenInverse, Point
-from hysteresis_bench.fit.model_file import FittedModel, Preparation
+from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.registry import BOUC_WEN, HAMMERSTEIN
 from hysteresis_bench.signals import Record
 
-AS_IT_IS = Preparation()
 Part = TypeVar("Part")
 INVERTIBLE = (BOUC_WEN, HAMMERSTEIN)
 
@@ -73,7 +73,7 @@ class FeedForward:
 
     def voltage(self, u: float) -> float:
         """The actuator's input for the model's."""
-        return (-u if self.preparation.flip else u) + self.preparation.input_offset
+        return self.preparation.measured_input(u)
 
     def model_input(self, voltage: float) -> float:
         """The model's input for the actuator's."""

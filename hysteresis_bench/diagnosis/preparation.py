@@ -10,9 +10,9 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.evidence.view import View, views_of
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
 from hysteresis_bench.signals import Dataset, Record
 
@@ -59,7 +59,7 @@ def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:
         stack = Stack(model, thinned(views_of(records)), tuple(question.effects), question.bounds, question.fixed)
         fitter = Fitter(stack, question.options.seed)
         system, values = fitter.fitted(fitter.bare(frozenset({registry.RECORD_OFFSET})))
-        if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
+        if passes >= MOST_REPEATS or gap_after(system, records, values, repeats=passes) < CLOSED:
             return passes
         passes *= 2
 

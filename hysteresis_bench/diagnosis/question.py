@@ -11,7 +11,8 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.model_file import Preparation
+from hysteresis_bench.fit.asked import asked_faults
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.signals import Dataset
 
@@ -25,6 +26,7 @@ class DiagnosisOptions:
 
     seed : of all searches;  jobs : processes; default: as many as cores, at most 4
     input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    skip : seconds at the start of every record that are simulated and not scored
     settle : closed loops are repeated until they close before they are scored
     accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
     """
@@ -33,6 +35,7 @@ class DiagnosisOptions:
     jobs: int | None = None
     input_offset: float = 0.0
     flip: bool = False
+    skip: float = 0.0
     settle: bool = False
     accept_terms: bool = False
 
@@ -54,8 +57,8 @@ class Question:
 
     @property
     def preparation(self) -> Preparation:
-        """What is done to every input before the model sees it."""
-        return Preparation(self.options.input_offset, self.options.flip)
+        """What is done to every record before the model sees it; how often a loop is passed is found out later."""
+        return Preparation(self.options.input_offset, self.options.flip, self.options.skip)
 
     @property
     def built(self) -> Model:
@@ -64,10 +67,11 @@ class Question:
         return model
 
     def check(self, dataset: Dataset) -> None:
-        """Raises UserError telling every fault of the question and of the records at once."""
-        faults = registry.faults("models", self.model, self.settings)
-        for name in self.effects:
-            faults += registry.effect_faults(name, self.model)
+        """Raises UserError telling every fault of the question and of the records at once; dataset : as measured."""
+        if faults := self.preparation.faults(dataset.records):
+            raise UserError("diagnose", faults)
+        dataset = dataset.map(self.preparation.skipped)
+        faults = asked_faults(self.model, self.settings, self.effects)
         if not faults:
             known = registry.build_effects(self.built, self.effects)
             reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}

@@ -14,7 +14,7 @@ from numpy.random import Generator, default_rng
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, HiddenForm, Hiding, Model, Response, Rig
-from hysteresis_bench.diagnosis.search.systems import place
+from hysteresis_bench.diagnosis.hypotheses.systems import place
 from hysteresis_bench.signals import Dataset, Record, Signal
 
 DURATION, SAMPLES, FINER = 3.0, 800, 8

@@ -23,6 +23,7 @@ from hysteresis_bench.diagnosis_study.results import (
 )
 from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
 from hysteresis_bench.study.execution.pool import Pool, Work, at_once
+from hysteresis_bench.study.run import default_folder
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,7 @@ def run_diagnosis_study(
     """
     path = Path(path)
     study, text = read_diagnosis_study(path)
-    folder = Path(out) if out else Path("results") / path.stem
+    folder = Path(out) if out else default_folder(path)
     (folder / FOLDER).mkdir(parents=True, exist_ok=True)
     check_same(folder, study)
     (folder / STUDY).write_text(text, encoding="utf-8")

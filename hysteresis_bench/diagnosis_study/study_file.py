@@ -64,8 +64,8 @@ def is_diagnosis_study(path: Path) -> bool:
 def read_diagnosis_study(path: Path) -> tuple[DiagnosisStudy, str]:
     """A study and its text. Raises UserError telling every fault of the file, of form and of content."""
     raw, text = read_toml(path)
-    study, faults = validated(DiagnosisStudy, raw)
-    benches = tables(raw, "bench")
+    study, sound, faults = validated(DiagnosisStudy, raw)
+    benches = tables(sound, "bench")
     for number, bench in enumerate(benches, 1):
         faults += [f"[[bench]] {number}: {fault}" for fault in _bench_faults(bench)]
     faults += doubles("bench", [str(bench["name"]) for bench in benches if "name" in bench])

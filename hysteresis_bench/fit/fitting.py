@@ -15,12 +15,14 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
+from hysteresis_bench.fit.asked import asked_faults
 from hysteresis_bench.fit.behaviour import broken_promises
 from hysteresis_bench.fit.identifiability import Identifiability, analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES
-from hysteresis_bench.fit.model_file import FittedModel, Preparation, fitted_model
+from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
@@ -39,6 +41,7 @@ class FitOptions:
     optimizer, optimizer_settings : a registered optimizer;  budget : evaluations of each search
     seed : of both searches
     input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    skip : seconds at the start of every record that are simulated and not scored
     settle : closed loops are repeated until they close before they are scored
     """
 
@@ -48,6 +51,7 @@ class FitOptions:
     seed: int = 0
     input_offset: float = 0.0
     flip: bool = False
+    skip: float = 0.0
     settle: bool = False
 
 
@@ -87,7 +91,7 @@ class Fit:
 @dataclass(frozen=True, eq=False)
 class _Searched:
     """dataset : as the problem sees it;  found : (dimension,) of each search, polished, in units;  losses : of them
-    repeats : passes of every loop before it is scored;  gap : between the last two of them"""
+    repeats : passes of every loop before it is scored, 0 where it is not;  gap : between the last two of them"""
 
     problem: Problem
     dataset: Dataset
@@ -121,7 +125,9 @@ def fit_records(
     """
     settings = settings or {}
     system = _system(model, settings, effects, fixed or {}, options)
-    preparation = Preparation(options.input_offset, options.flip)
+    preparation = Preparation(options.input_offset, options.flip, options.skip)
+    if faults := preparation.faults(dataset.records):
+        raise UserError("fit", faults)
     seen = dataset.map(preparation)
     _check(system, seen, options.settle)
     space = _space(system, seen.fitted, bounds or {})
@@ -138,7 +144,7 @@ def fit_records(
         dataset=best.dataset,
         model=model,
         settings=settings,
-        preparation=preparation,
+        preparation=replace(preparation, settle=best.repeats),
     )
     parameters = _parameter_table(problem, fitted)
     agrees, agreement = _agreement(problem, best.found, best.losses)
@@ -146,7 +152,7 @@ def fit_records(
     return Fit(
         fitted,
         _error_table(system, values, best.dataset),
-        response_table(dataset, {"simulated": responses}),  # as measured, not as the model sees it
+        response_table(dataset.map(preparation.skipped), {"simulated": responses}),  # the measured input
         parameters,
         analysis,
         agreement,
@@ -157,17 +163,15 @@ def fit_records(
             *_edges(parameters),
             *analysis.sentences(),
         ),
-        _notes(space, options, best.repeats if options.settle else 0),
+        (*dataset.notes, *_notes(space, options, best.repeats)),
     )
 
 
 def _system(
     model: str, settings: Mapping[str, Any], effects: Sequence[str], fixed: Mapping[str, float], options: FitOptions
 ) -> System:
-    faults = registry.faults("models", model, settings)
+    faults = asked_faults(model, settings, effects)
     faults += registry.faults("optimizers", options.optimizer, options.optimizer_settings)
-    for effect in effects:
-        faults += registry.effect_faults(effect, model)
     if faults:
         raise UserError("fit", faults)
     built = registry.build("models", model, settings)
@@ -177,6 +181,8 @@ def _system(
     known = replace(system, fixed=fixed)
     if unknown or known.refusals():
         raise UserError("fit", unknown + [f"fixed {reason}" for reason in known.refusals()])
+    if not known.parameters:
+        raise UserError("fit", "every parameter is fixed; leave one free to be found.")
     return known
 
 
@@ -192,8 +198,7 @@ def _check(system: System, dataset: Dataset, settle: bool) -> None:
     samples = sum(record.measured.size for record in dataset.fitted)
     if samples <= len(system.parameters):
         faults.append(f"{samples} samples cannot determine {len(system.parameters)} parameters.")
-    faults = faults or broken_promises(system, dataset.fitted)
-    if faults:
+    if faults := faults or broken_promises(system, dataset.fitted):
         raise UserError("fit", faults)
 
 
@@ -223,12 +228,13 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         for run in (0, 1):
             key = (options.seed, "fit", run)
             start = shared_start(space.dimension, *key)
-            found.append(polish(problem, search(problem, optimizer, options.budget, start, generator(*key)).values))
+            best = search(problem, optimizer, budget=options.budget, start=start, rng=generator(*key))
+            found.append(polish(problem, best.values))
         losses = tuple(float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found)
         searched = _Searched(problem, ready, tuple(found), losses, repeats, 0.0)
         if not options.settle:
-            return searched
-        gap = gap_after(system, ready.records, searched.values, repeats)
+            return replace(searched, repeats=0)
+        gap = gap_after(system, ready.records, searched.values, repeats=repeats)
         if gap < CLOSED or repeats >= MOST_REPEATS:
             return replace(searched, gap=gap)
         repeats *= 2

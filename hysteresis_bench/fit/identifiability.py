@@ -140,7 +140,7 @@ class Profile:
     ratio: Array
 
 
-def profile(problem: Problem, name: str, grid: Array, values: Array) -> Profile:
+def profile(problem: Problem, name: str, grid: Array, *, values: Array) -> Profile:
     """Profile likelihood of one parameter: the others are fitted anew from the neighbouring grid value.
 
     grid : inside the parameter's box, any order;  values : (dimension,) where to begin, usually the optimum.

@@ -103,7 +103,9 @@ def jacobian(problem: Problem, points: Array) -> tuple[Array, Array]:
     return swarm[:, :, 0], (swarm[:, :, 1:] - swarm[:, :, :1]) / steps.T
 
 
-def descend(problem: Problem, starts: Array, weights: Array | None = None, iterations: int = 30) -> tuple[Array, Array]:
+def descend(
+    problem: Problem, starts: Array, weights: Array | None = None, *, iterations: int = 30
+) -> tuple[Array, Array]:
     """Follow every chain downhill -> its point (dimension, chains) and its sum of squares (chains,).
 
     starts : (dimension, chains) in the unit box

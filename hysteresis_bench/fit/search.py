@@ -26,7 +26,7 @@ class Search:
     trace: Trace
 
 
-def search(problem: Problem, optimizer: Optimizer, budget: int, start: Start, rng: Generator) -> Search:
+def search(problem: Problem, optimizer: Optimizer, *, budget: int, start: Start, rng: Generator) -> Search:
     """Run one optimizer on one problem. Whatever the optimizer raises passes through.
 
     Raises RuntimeError where the optimizer returned without a single evaluation.

@@ -14,6 +14,7 @@ from hysteresis_bench.data_files import read_data
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.seeds import generator
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, joined
@@ -47,8 +48,7 @@ def dataset_of(spec: ProblemSpec, seed: int, folder: Path) -> Dataset:
     """What is fitted and what is held out, as the problem prepares it."""
     dataset = _of_rig(spec, seed) if spec.rig else _read(spec, folder)
     if spec.skip is not None:
-        skip = spec.skip
-        dataset = dataset.map(lambda record: record.skip(skip))
+        dataset = dataset.map(Preparation(skip=spec.skip).skipped)
     if spec.settle:
         dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
     return dataset

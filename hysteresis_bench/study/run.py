@@ -69,20 +69,20 @@ def run_study(
             _run_missing(store, study, tickets, jobs or os.cpu_count() or 1, on_progress)
             table, traces = store.table(), store.traces()
     table.to_csv(folder / TRIALS, index=False)
-    staged, staged_responses = run_stages(study, table, built, path.parent)
+    staged, staged_responses = run_stages(study, table, built, folder=path.parent)
     if study.stage:
         staged.to_csv(folder / STAGES, index=False)
     parts = [responses(table, built), staged_responses]
     pd.concat(parts).to_csv(folder / RESPONSES, index=False, float_format="%.7g")
-    determined = json.dumps(identifiability(study, table, traces, built), indent=1, allow_nan=False)
+    determined = json.dumps(identifiability(study, table, built, traces=traces), indent=1, allow_nan=False)
     (folder / IDENTIFIABILITY).write_text(determined + "\n", encoding="utf-8")
     return folder
 
 
 def default_folder(study: Path) -> Path:
-    """results/NAME, in the project for a file in its studies folder, beside the file otherwise."""
+    """runs/NAME, in the project for a file in its studies folder, beside the file otherwise."""
     home = study.resolve().parent
-    return (home.parent if home.name == "studies" else home) / "results" / study.stem
+    return (home.parent if home.name == "studies" else home) / "runs" / study.stem
 
 
 def _run_missing(

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import sqlite3
+import zipfile
 from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -17,6 +18,9 @@ import pandas as pd
 from hysteresis_bench.fit.objective import Trace
 
 FILE = "trials.sqlite"
+
+DAMAGED = (sqlite3.Error, ValueError, OSError, KeyError, EOFError, zipfile.BadZipFile)
+"""What a store that was cut or overwritten raises when it is read."""
 
 KEY = ("problem", "optimizer", "trial")
 COLUMNS = (
@@ -82,6 +86,13 @@ class Store:
                 PRIMARY KEY (problem, optimizer, trial));
             """
         )
+
+    @classmethod
+    def reading(cls, folder: Path) -> Store:
+        """Opened to be read: nothing in the folder changes. Raises one of DAMAGED where it cannot be."""
+        store = cls.__new__(cls)
+        store._connection = sqlite3.connect(f"{(folder / FILE).resolve().as_uri()}?mode=ro", uri=True)
+        return store
 
     def __enter__(self) -> Store:
         return self

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import re
 import tomllib
 import typing
@@ -66,12 +67,36 @@ def listed(raw: Mapping[str, Any], key: str) -> list[str]:
     return [str(entry) for entry in value] if isinstance(value, list) else []
 
 
-def validated(form: type[Form], raw: Mapping[str, Any]) -> tuple[Form | None, list[str]]:
-    """Parsed TOML in its form, and no fault; or None, and a sentence on every fault with the nearest known name."""
+def validated(form: type[Form], raw: Mapping[str, Any]) -> tuple[Form | None, dict[str, Any], list[str]]:
+    """Parsed TOML in its form, or None; the content that has the right form; a sentence on every fault of form with
+    the nearest known name. What a file names is looked up in the content that has the right form only."""
     try:
-        return form.model_validate(dict(raw)), []
+        return form.model_validate(dict(raw)), dict(raw), []
     except ValidationError as error:
-        return None, list(dict.fromkeys(_sentence(form, fault) for fault in error.errors()))
+        sound = copy.deepcopy(dict(raw))
+        for fault in error.errors():
+            _leave_out(sound, fault["loc"])
+        return None, sound, list(dict.fromkeys(_sentence(form, fault) for fault in error.errors()))
+
+
+def _leave_out(content: dict[str, Any], location: tuple[int | str, ...]) -> None:
+    """Take off the key of a table that a fault lies in; a key that is missing, or a fault of a whole table, leaves the
+    other keys of the table."""
+    found: Any = content
+    holder: dict[str, Any] | None = None
+    key = ""
+    for part in location:
+        if isinstance(found, dict) and isinstance(part, str) and part in found:
+            holder, key, found = found, part, found[part]
+        elif isinstance(found, list) and isinstance(part, int) and part < len(found):
+            found = found[part]
+        elif isinstance(found, dict):
+            return
+        else:
+            break
+    whole_table = isinstance(found, dict) and isinstance(location[-1], int)
+    if holder is not None and key in holder and not whole_table:
+        del holder[key]
 
 
 def _sentence(form: type[Strict], fault: Any) -> str:
@@ -80,7 +105,17 @@ def _sentence(form: type[Strict], fault: Any) -> str:
         where, key = " ".join(place[:-1]), str(fault["loc"][-1])
         return f'{where + ": " if where else ""}no key "{key}". {nearest(key, _keys_of(form, fault["loc"][:-1]))}'
     message = fault["msg"].removeprefix("Value error, ")
-    return f"{' '.join(place)}: {message[0].lower() + message[1:]}."
+    return shown(f"{' '.join(place)}: {message[0].lower() + message[1:]}.")
+
+
+LONGEST = 500
+"""Characters of a sentence that are told: a file may hold a megabyte under one key."""
+
+
+def shown(text: str) -> str:
+    """Text that a terminal can print: control characters as their escapes, cut at LONGEST."""
+    plain = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    return plain if len(plain) <= LONGEST else f"{plain[:LONGEST]} ..."
 
 
 def _words(location: tuple[int | str, ...]) -> list[str]:

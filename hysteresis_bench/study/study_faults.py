@@ -19,11 +19,15 @@ def content_faults(raw: dict[str, Any]) -> list[str]:
             faults = registry.faults("optimizers", spec["plugin"], table(spec, "settings"))
             found += [f"[[optimizer]] {number}: {fault}" for fault in faults]
     for number, spec in enumerate(tables(raw, "problem"), 1):
-        found += [f"[[problem]] {number}: {fault}" for fault in problem_faults(spec) + _label_faults(spec, raw)]
+        found += [
+            f"[[problem]] {number}: {fault}"
+            for fault in [*problem_faults(spec), *_twice(spec), *_label_faults(spec, raw)]
+        ]
     for number, spec in enumerate(tables(raw, "stage"), 1):
         found += [f"[[stage]] {number}: {fault}" for fault in _stage_faults(spec, raw)]
     if isinstance(raw.get("closing"), dict):
         found += [f"[closing]: {fault}" for fault in _closing_faults(raw["closing"], raw)]
+    found += _unprintable(raw)
     found += doubles("optimizer", [str(each.get("label") or each.get("plugin")) for each in tables(raw, "optimizer")])
     for key in ("problem", "stage"):
         found += doubles(key, [str(each["name"]) for each in tables(raw, key) if "name" in each])
@@ -37,6 +41,28 @@ def doubles(key: str, names: Sequence[str]) -> list[str]:
         f'two [[{key}]] are both called "{name}"; give one another {word}.'
         for name in sorted({name for name in names if names.count(name) > 1})
     ]
+
+
+def _unprintable(raw: dict[str, Any]) -> list[str]:
+    """Names go into file names, tables and terminals."""
+    told = [("optimizer", "label"), ("problem", "name"), ("stage", "name")]
+    return [
+        f"[[{key}]] {number}: {word} = {text!r} has characters that cannot be printed; leave them out."
+        for key, word in told
+        for number, each in enumerate(tables(raw, key), 1)
+        if isinstance(text := each.get(word), str) and not text.isprintable()
+    ]
+
+
+def _twice(spec: dict[str, Any]) -> list[str]:
+    """What a problem lists twice, or fits and holds out."""
+    found = []
+    for keys in (("fitted", "held_out"), ("optimizers",), ("effects",), ("data",)):
+        names = [name for key in keys for name in listed(spec, key)]
+        more = "; what is held out must not be fitted" if len(keys) > 1 else ""
+        doubled = dict.fromkeys(name for name in names if names.count(name) > 1)
+        found += [f'{" and ".join(keys)}: "{name}" is named twice{more}.' for name in doubled]
+    return found
 
 
 def problem_faults(spec: dict[str, Any], experiments: Sequence[str] = ("fitted", "held_out")) -> list[str]:

@@ -10,7 +10,7 @@ from pydantic import Field, PositiveInt, model_validator
 from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.parameters import Scaling
-from hysteresis_bench.study.strict import Seconds, Strict, read_toml, validated
+from hysteresis_bench.study.strict import Seconds, Strict, read_toml, shown, validated
 from hysteresis_bench.study.study_faults import content_faults
 
 
@@ -31,7 +31,9 @@ class ProblemSpec(Strict):
     """One problem: where the data come from, what is fitted, and in which box.
 
     fitted, held_out : experiments of the rig, or names of records (of the data: all where none is named)
-    bounds : replaces the model's own box, parameter by parameter; "data" derives the rest from the data
+    box : "data" derives it from the ranges of the fitted records, as `fit` does, and is the default on data files;
+        "model" is the model's own, and the default on a rig
+    bounds : replaces the box, parameter by parameter
     fixed : parameters that are known: not searched
     profile : parameters whose profile likelihood the report shows
     optimizers : labels of those that run on this problem; all where none is named
@@ -55,6 +57,13 @@ class ProblemSpec(Strict):
     optimizers: list[str] = []
     skip: Seconds | None = None
     settle: bool = False
+
+    @model_validator(mode="before")
+    @classmethod
+    def box_of_the_source(cls, raw: Any) -> Any:
+        if isinstance(raw, dict) and "box" not in raw:
+            return {**raw, "box": "data" if raw.get("data") else "model"}
+        return raw
 
     @model_validator(mode="after")
     def one_source(self) -> ProblemSpec:
@@ -145,8 +154,8 @@ def read_study(path: Path) -> tuple[Study, str]:
 
 def check_study(raw: dict[str, Any], where: str) -> Study:
     """A study from parsed TOML. Raises UserError telling every fault, of form and of content."""
-    study, faults = validated(Study, raw)
-    faults += content_faults(raw)
+    study, sound, faults = validated(Study, raw)
+    faults += [shown(fault) for fault in content_faults(sound)]
     if study is None or faults:
         raise UserError(where, faults)
     return study

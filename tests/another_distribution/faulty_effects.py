@@ -1,8 +1,11 @@
 """Effects that do not say what they must."""
 
+from dataclasses import dataclass
+
 from hysteresis_bench.contracts import Effect
 
 
+@dataclass(frozen=True)
 class Silent(Effect):
     """Declares neither where it acts nor its family."""
 
@@ -12,6 +15,7 @@ class Silent(Effect):
         return inner(signal)
 
 
+@dataclass(frozen=True)
 class Misspelt(Silent):
     """Acts nowhere that is known."""
 

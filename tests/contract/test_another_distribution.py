@@ -8,12 +8,13 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from hysteresis_bench import diagnose, registry
+from hysteresis_bench import registry
 from hysteresis_bench.cli import main
+from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.ties import GENERIC, tie
-from hysteresis_bench.diagnosis.question import DiagnosisOptions
-from hysteresis_bench.diagnosis.search import systems
-from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses import systems
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects, can_be_hidden
 from hysteresis_bench.fit.fitting import fit_records
 from hysteresis_bench.signals import Dataset, joined
@@ -91,7 +92,7 @@ def test_the_rig_hides_it_and_no_nuisance(rig, dataset):
 
 
 def test_it_is_diagnosed(dataset):
-    found = diagnose(Dataset(dataset.records, dataset.held_out_names), "bouc-wen", options=DiagnosisOptions(jobs=1))
+    found = diagnose(Dataset(dataset.records, dataset.held_out_names), Question("bouc-wen"), jobs=1)
     assert BEND in found.effects or BEND in {one.rival for one in found.ties}
     assert found.after.held_out.rmse < 0.7 * found.before.held_out.rmse
 

@@ -137,7 +137,7 @@ def test_a_fitted_model_with_a_wild_number_predicts_nothing(fitted, value, tmp_p
     content = json.loads(path.read_text())
     content["parameters"]["a"]["value"] = value
     path.write_text(json.dumps(content))
-    with pytest.raises(UserError, match="no number to predict with"):
+    with pytest.raises(UserError, match=r"must be finite|too large to work with"):
         predict(path, data)
 
 
@@ -164,7 +164,7 @@ def test_two_plugins_of_one_name_are_a_fault_that_names_both():
     listed = [one for one in registry.registered("optimizers") if one.name == "pso"]
     assert [one.distribution for one in listed] == ["hysteresis-bench", "second-distribution"]
     told = CliRunner().invoke(main, ["list", "optimizers"], env={"COLUMNS": "300"}).output
-    assert told.count("second-distribution 1.2") == 2
+    assert told.count(both) == 2
     assert not registry.load("optimizers", "leaves").shipped
 
 

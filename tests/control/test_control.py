@@ -17,13 +17,15 @@ from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDI
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.pi import Memory, ProportionalIntegral
-from hysteresis_bench.control.references import Reference, published_references, read_trajectory
+from hysteresis_bench.control.references import Reference, published_references
 from hysteresis_bench.control.sliding_mode import SlidingMode
+from hysteresis_bench.control.trajectory import follow, read_trajectory
 from hysteresis_bench.control.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.model_file import Estimate, FittedModel, Preparation, read_model, write_model
+from hysteresis_bench.fit.model_file import Estimate, FittedModel, read_model, write_model
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.kernels.second_order import transition
-from hysteresis_bench.signals import Signal
+from hysteresis_bench.signals import Dataset, Record, Signal
 
 PUBLISHED = {"alpha": 0.304225, "beta": 0.675313, "gamma": 0.497724, "d": 1.045814}  # PEA paper, Table 2, G-Pmix
 LINEAR = {"b": 267_700.0, "c_over_m": 510.1069, "k_over_m": 255_700.0}  # PEA paper, Table 3, G-Pmix
@@ -42,7 +44,7 @@ def model(name="hammerstein", effects=(), preparation=None, **changed):
 class StandIn:
     """A plant that is nearly the model: another loop height, a stiffer spring, a noisy and quantised sensor."""
 
-    input_limit, noise, resolution = 5.0, 0.003, 0.003
+    input_limit, noise, resolution, units = 5.0, 0.003, 0.003, UNITS
     noise_floor = np.hypot(noise, resolution / np.sqrt(12.0))
 
     def __init__(self, alpha=1.2 * PUBLISHED["alpha"], stiffness=1.1 * LINEAR["k_over_m"]):
@@ -131,8 +133,44 @@ def test_a_voltage_limit_is_flagged_and_stays_finite():
     found = compare(model(), rig, "stand-in", rate=2000.0)
     assert np.isfinite(found.scores.select_dtypes("number").to_numpy()).all()
     assert (by_controller(found, "saturated_share").loc["ramp"] > 0.2).all()
-    assert any("voltage limit cut" in told for told in found.warnings)
+    assert sum("voltage limit cut" in told for told in found.warnings) == 1
+    assert "An amplitude of 2 needs" in found.warnings[0]
     assert found.responses["voltage"].abs().max() <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("changed", "amplitude", "words"),
+    [
+        ({"units": UNITS | {"output": "nm"}}, 2.0, "output is in nm in the model and in um on the rig"),
+        ({"units": UNITS | {"time": "ms"}}, 2.0, "time is in ms"),
+        ({}, 60.0, "less than 25% of it can be reached"),
+    ],
+)
+def test_a_model_that_does_not_suit_the_rig_is_refused(changed, amplitude, words):
+    with pytest.raises(ValueError, match=words):
+        compare(replace(model(), **changed), StandIn(), "stand-in", rate=2000.0, amplitude=amplitude)
+
+
+def test_a_model_of_larger_inputs_is_told_first():
+    of_sixty_volts = replace(model("bouc-wen"), data={"ranges": {"input": [-60.0, 60.0]}})
+    found = compare(of_sixty_volts, StandIn(), "stand-in", rate=2000.0)
+    assert "fitted to inputs up to 60 V, and the rig takes 5 V" in found.warnings[0]
+
+
+def test_a_trajectory_is_converted_and_settled_as_the_fit_was(tmp_path):
+    path, fitted = tmp_path / "wanted.csv", replace(model("bouc-wen"), preparation=Preparation(settle=3))
+    time = np.arange(401) / 100.0
+    wanted = 1.5 * np.sin(np.pi * time)
+    frame = pd.DataFrame({"time [ms]": 1e3 * time, "reference [nm]": 1e3 * wanted})
+    frame.to_csv(path, index=False)
+    found = follow(fitted, feed_forward(fitted), path, np.inf)
+    np.testing.assert_allclose(found.output, wanted, atol=1e-12)
+    np.testing.assert_allclose(found.time, time, atol=1e-12)
+    assert "output [nm] was converted to um" in found.notes[0]
+    assert "closed loops are passed 3 times" in found.notes[1]
+    record = Record(time, found.input, None, units=UNITS)
+    predicted = fitted.predict(Dataset((record,)))
+    np.testing.assert_allclose(predicted.records[0].output, wanted, atol=0.02)
 
 
 def test_a_model_without_a_linear_section_has_no_sliding_mode_and_says_so():
@@ -279,7 +317,7 @@ def test_trajectories_with_faults_are_told_by_row(tmp_path):
     ):
         path.write_text(text)
         with pytest.raises(UserError, match=words):
-            read_trajectory(path)
+            read_trajectory(path, UNITS)
 
 
 @pytest.fixture

@@ -15,7 +15,7 @@ from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
 from hysteresis_bench.diagnosis_study.results import FOLDER, STUDY, read_cases
 from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis_study.page import told, write_closing_page
+from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 
 STUDIES = Path(__file__).parents[2] / "studies"
 
@@ -146,9 +146,9 @@ def test_the_page_tells_shares_and_what_went_wrong(tmp_path):
     cases.append(Case("clean", "bouc-wen", 4, "crashed", "exit code 9 <b>"))
     for case in cases:
         (tmp_path / FOLDER / f"clean.{case.number}.json").write_text(json.dumps(asdict(case)))
-    page = write_closing_page(tmp_path).read_text()
-    assert "something was claimed in 1 of 4 (25\u202f%" in told(tmp_path)[0]
-    assert "1 of 3 (33\u202f%" in told(tmp_path)[0]
+    page = write_diagnosis_study_page(tmp_path).read_text()
+    assert "something was claimed in 1 of 4 (25\u202f%" in answer(tmp_path)[0]
+    assert "1 of 3 (33\u202f%" in answer(tmp_path)[0]
     assert "exit code 9 &lt;b&gt;" in page
     assert "Cases that went wrong" in page
 

@@ -13,7 +13,7 @@ from click.testing import CliRunner, Result
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.kernels.lag import lag
-from hysteresis_bench.report.shared.page import number
+from hysteresis_bench.report.shared.text import number
 from hysteresis_bench.study.study_file import check_study, read_study
 from hysteresis_bench.study_diagnosis import ClosingTicket, asked_for, run_closing
 from tests.end_to_end.test_run import run_command
@@ -63,7 +63,7 @@ def closed(tmp_path_factory) -> Path:
     done = run_command("run", write(folder), "--jobs", 1)
     assert done.returncode == 0, done.stderr + done.stdout
     assert "Closing the loop: " in done.stdout
-    return folder / "results" / "closed"
+    return folder / "runs" / "closed"
 
 
 def section(results: Path) -> str:
@@ -136,7 +136,7 @@ def test_an_unknown_record_is_told_before_the_trials(tmp_path):
     done = run_command("run", study)
     assert done.returncode == 2
     assert 'no record "lagging:midle"' in done.stderr
-    assert not (tmp_path / "results").exists()
+    assert not (tmp_path / "runs").exists()
 
 
 def test_words_do_not_make_it_another_diagnosis():

@@ -11,7 +11,7 @@ import pandas as pd
 import pytest
 
 import hysteresis_bench
-from hysteresis_bench import FitOptions, control, diagnose, fit, load, measure, predict, run_study
+from hysteresis_bench import DiagnosisOptions, FitOptions, control, diagnose, fit, load, measure, predict, run_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
 from hysteresis_bench.signals import Dataset
@@ -88,7 +88,8 @@ def test_control_on_a_rig_that_can_be_stepped():
 def test_diagnose_shows_what_it_found():
     known = record(240)
     noise = 0.01 * np.random.default_rng(0).standard_normal(240)
-    found = diagnose(Dataset((replace(known, output=known.output + noise),)), "polynomial", jobs=1)
+    noisy = Dataset((replace(known, output=known.output + noise),))
+    found = diagnose(noisy, "polynomial", options=DiagnosisOptions(jobs=1))
     html = found._repr_html_()
     assert found.headline.split()[0] in html
     assert html.count("<table") == 2

@@ -56,7 +56,7 @@ def test_parameters_lie_within_their_standard_errors(fitted):
 
 def test_model_file_follows_its_schema(fitted, data_file):
     content = json.loads((fitted[1] / "model.json").read_text(encoding="utf-8"))
-    assert content["schema"] == 1
+    assert content["schema"] == 2
     assert content["model"] == "polynomial"
     assert content["units"]["output"] == "um"
     assert set(content["parameters"]["a"]) == {"value", "standard_error", "unit"}

@@ -48,7 +48,7 @@ def write_study(folder: Path, optimizers: list[str], budget: int = 300, timeout:
 
 
 def trials(folder: Path) -> pd.DataFrame:
-    return pd.read_csv(folder / "results" / "cubic" / "trials.csv")
+    return pd.read_csv(folder / "runs" / "cubic" / "trials.csv")
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +62,7 @@ def finished(tmp_path_factory) -> Path:
 
 
 def test_a_finished_study_leaves_what_it_should(finished):
-    folder = finished / "results" / "cubic"
+    folder = finished / "runs" / "cubic"
     for name in ("study.toml", "provenance.json", "trials.sqlite", "trials.csv", "summary.csv", "report.html"):
         assert (folder / name).is_file(), name
     table = trials(finished)
@@ -154,7 +154,7 @@ def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
 def test_a_folder_of_another_study_is_refused(finished, change, told):
     study = finished / "other.toml"
     study.write_text((finished / "cubic.toml").read_text(encoding="utf-8").replace(*change), encoding="utf-8")
-    done = run_command("run", study, "--out", finished / "results" / "cubic")
+    done = run_command("run", study, "--out", finished / "runs" / "cubic")
     assert done.returncode == 2
     assert told in done.stderr
     assert "Traceback" not in done.stderr

@@ -6,8 +6,8 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.search.cross_validation import FOLDS, advantage, cut, left_out_errors
-from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import FOLDS, advantage, cut, left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, point_of, split, values_of
 from tests.diagnosis.generator import make
 

@@ -135,7 +135,7 @@ class Prying(Optimizer):
     """Tries to buy evaluations, to forge the best and to change the problem; notes what let it."""
 
     def search(self, objective, start, rng):
-        self.let: list[str] = []
+        self.let = []
         objective.many(start(3))
         for name, value in (("evaluations", 0), ("budget", 10**6), ("best", 0.0), ("dimension", 1), ("_problem", None)):
             try:
@@ -151,7 +151,7 @@ class Prying(Optimizer):
 
 def test_an_optimizer_cannot_reach_the_counters_the_best_or_the_problem(polynomial_problem):
     optimizer, start = Prying(), shared_start(2, 1)
-    found = search(polynomial_problem, optimizer, 10, start, np.random.default_rng(0))
+    found = search(polynomial_problem, optimizer, budget=10, start=start, rng=np.random.default_rng(0))
     assert optimizer.let == []
     assert found.evaluations == 10
     assert found.spent

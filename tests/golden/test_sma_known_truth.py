@@ -19,9 +19,8 @@ def found(optimizer, scaling):
     )
     built = build_problem(spec, 1, None)
     start = shared_start(5, "golden", optimizer)
-    result = search(
-        built.problem, registry.build("optimizers", optimizer), 15050, start, generator("golden", optimizer)
-    )
+    rng = generator("golden", optimizer)
+    result = search(built.problem, registry.build("optimizers", optimizer), budget=15050, start=start, rng=rng)
     return result.values, accuracy(built.problem.system, built.dataset.fitted, result.values).relative_rms
 
 

@@ -37,6 +37,13 @@ def test_a_good_file_and_its_defaults(tmp_path):
     assert study.labels == ["pso"]
 
 
+def test_the_box_follows_the_data_where_there_are_data_files_as_in_a_fit(tmp_path):
+    on_rig = 'rig = "sma"\nfitted = ["pwm-60s"]'
+    assert read(tmp_path, GOOD).problem[0].box == "data"
+    assert read(tmp_path, GOOD.replace('data = ["a.csv"]', on_rig)).problem[0].box == "model"
+    assert read(tmp_path, GOOD.replace("data =", 'box = "model"\ndata =')).problem[0].box == "model"
+
+
 @pytest.mark.parametrize(("text", "seconds"), [("10 min", 600), ("90 s", 90), ("1.5h", 5400), (12, 12)])
 def test_times(text, seconds):
     assert duration(text) == seconds
@@ -93,7 +100,7 @@ settings = { particels = 10 }
         (('data = ["a.csv"]', 'data = ["a.csv"]\nbounds = 3'), "[[problem]] 1 bounds: input should be a valid dict"),
         (
             ('data = ["a.csv"]', 'data = ["a.csv"]\neffects = "bias"'),
-            "[[problem]] 1 effects: input should be a valid list",
+            "1 effects: input should be a valid list",
         ),
         (('plugin = "pso"', 'plugin = "faulty-missing"'), "is broken"),
         (('plugin = "pso"', 'plugin = "faulty-abstract"'), "Abstract lacks search"),

@@ -71,7 +71,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
             "held_out": [record.name for record in prepared.dataset.held_out],
             "how": prepared.how,
         },
-        warnings=(*warnings(outcome), *_open(after, prepared)),
+        warnings=(*dataset.notes, *warnings(outcome), *_open(after, prepared)),
         units=dataset.units,
         given_up=found.given_up,
     )
@@ -97,7 +97,7 @@ def _advice(found: Found, ties: Sequence[Tie]) -> Advice | None:
 def _open(after: Stage, prepared: Prepared) -> list[str]:
     if not prepared.passes:
         return []
-    gap = gap_after(after.problem.system, prepared.dataset.fitted, after.values, prepared.passes)
+    gap = gap_after(after.problem.system, prepared.dataset.fitted, after.values, repeats=prepared.passes)
     return not_closed(gap, prepared.passes)
 
 
@@ -109,7 +109,7 @@ def _model(stage: Stage, prepared: Prepared, question: Question) -> FittedModel:
         dataset=prepared.dataset,
         model=question.model,
         settings=question.settings,
-        preparation=question.preparation,
+        preparation=replace(question.preparation, settle=prepared.passes),
     )
 
 

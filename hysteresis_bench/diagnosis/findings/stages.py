@@ -11,10 +11,10 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, residual_tests
 from hysteresis_bench.diagnosis.evidence.view import View
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.least_squares import split

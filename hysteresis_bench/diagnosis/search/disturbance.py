@@ -6,8 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.signals import Record
 
 

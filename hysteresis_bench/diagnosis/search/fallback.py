@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.diagnosis.evidence.blocks import Blocks
-from hysteresis_bench.diagnosis.search.cross_validation import left_out_errors
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.least_squares import point_of
 
 ITERATIONS = 15

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 
 EXPLAINED = 0.5
 """Share of the output's variance that the response to the input must explain before any effect is named."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.selection import Selection
 
 

@@ -8,17 +8,17 @@ from dataclasses import dataclass
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back
-from hysteresis_bench.diagnosis.search.fitter import Fitter
 from hysteresis_bench.diagnosis.search.follows import follows
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
-from hysteresis_bench.diagnosis.search.systems import Stack
-from hysteresis_bench.diagnosis.search.workers import Workers
 
 QUIETER = 0.9
 """The noise without a disturbance that was found, over that with it, from which the search goes on with the new

@@ -17,11 +17,11 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.search.cross_validation import CLEAR, advantage
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.nested_test import NestedTest
-from hysteresis_bench.diagnosis.search.workers import Workers
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""

@@ -33,7 +33,7 @@ def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
 
 
 def identifiability(
-    study: Study, trials: pd.DataFrame, traces: Mapping[tuple[str, str, int], Trace], built: Mapping[str, Built]
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, traces: Mapping[tuple[str, str, int], Trace]
 ) -> dict[str, Any]:
     """Per problem, at the polished best of all trials: rank, standard errors, sentences, profiles.
 
@@ -75,7 +75,7 @@ def _profile(of: Any, name: str, values: Array) -> dict[str, Any]:
     points = np.repeat(middle, PROFILE_POINTS, axis=1)
     points[row] = np.clip(np.linspace(middle[row, 0] - 0.2, middle[row, 0] + 0.2, PROFILE_POINTS), 0.0, 1.0)
     grid = np.unique(of.space.from_unit(points)[row])
-    found = profile(of, name, grid, values)
+    found = profile(of, name, grid, values=values)
     return {"name": name, "grid": found.grid.tolist(), "ratio": found.ratio.tolist()}
 
 

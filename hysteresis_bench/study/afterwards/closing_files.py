@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 import pandas as pd
+
+from hysteresis_bench.study.reader import Reader
 
 CLOSING, OUTCOME = "closing", "closing.json"
 DIAGNOSIS, MODEL, RESPONSES, PAGE = "diagnosis.json", "model.json", "responses.csv", "diagnosis.html"
@@ -23,7 +23,7 @@ class Closing:
         by name), status, reason, seconds
     diagnosis : the content of diagnosis.json, empty where the status is not "done"
     units : of time, input and output
-    responses : record, role, time, input, output, before, after of the records held out, thinned
+    responses : record, role, time, input, output, before, after, thinned; of older files the records held out only
     page : of the whole diagnosis, relative to the results folder; None without
     """
 
@@ -38,20 +38,22 @@ class Closing:
         return bool(self.diagnosis) and self.outcome.get("status") == DONE
 
 
-def read_closing(results: Path) -> Closing | None:
-    """Of a results folder; None where no diagnosis was tried."""
-    folder = results / CLOSING
-    if not (folder / OUTCOME).is_file():
+COLUMNS = ("record", "role", "time", "input", "output", "before", "after")
+
+
+def read_closing(reader: Reader) -> Closing | None:
+    """Of a results folder; None where no diagnosis was tried, or what it came to cannot be read."""
+    outcome = reader.json(f"{CLOSING}/{OUTCOME}")
+    if "status" not in outcome:
         return None
-    responses = folder / RESPONSES
+    diagnosis = reader.json(f"{CLOSING}/{DIAGNOSIS}")
+    responses = reader.csv(f"{CLOSING}/{RESPONSES}", COLUMNS)
+    if diagnosis and responses.empty:
+        reader.said(f"{CLOSING}/{RESPONSES}", "it is missing or has no samples; without it nothing is drawn")
     return Closing(
-        _json(folder / OUTCOME),
-        _json(folder / DIAGNOSIS),
-        _json(folder / MODEL).get("units", {}),
-        pd.read_csv(responses) if responses.is_file() else pd.DataFrame(),
-        f"{CLOSING}/{PAGE}" if (folder / PAGE).is_file() else None,
+        outcome,
+        diagnosis,
+        reader.json(f"{CLOSING}/{MODEL}").get("units", {}),
+        responses,
+        f"{CLOSING}/{PAGE}" if (reader.folder / CLOSING / PAGE).is_file() else None,
     )
-
-
-def _json(path: Path) -> dict[str, Any]:
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}

@@ -45,7 +45,7 @@ class Whole:
 
 
 def run_stages(
-    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], folder: Path
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, folder: Path
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses.
 

@@ -62,7 +62,7 @@ def run_trial(ticket: Ticket, built: Built, optimizer: Optimizer, budget: int) -
     key = seed_key(study, ticket)
 
     begun = time.process_time()  # of this process alone: what else the machine does is not the optimizer's cost
-    found = search(problem, optimizer, budget, start, generator(*key))
+    found = search(problem, optimizer, budget=budget, start=start, rng=generator(*key))
     seconds = time.process_time() - begun
 
     ended = Outcome(
@@ -126,7 +126,8 @@ def _rehearse(ticket: Ticket) -> None:
     study, built = _study(ticket.study), _built(ticket.study, ticket.folder, ticket.problem)
     spec = next(spec for spec in study.optimizer if spec.name == ticket.optimizer)
     start = shared_start(built.problem.space.dimension, "rehearsal")
-    search(built.problem, registry.build("optimizers", spec.plugin, spec.settings), 1, start, generator("rehearsal"))
+    optimizer = registry.build("optimizers", spec.plugin, spec.settings)
+    search(built.problem, optimizer, budget=1, start=start, rng=generator("rehearsal"))
 
 
 @lru_cache(maxsize=4)

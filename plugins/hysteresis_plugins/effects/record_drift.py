@@ -38,7 +38,7 @@ class RecordDrift(Effect):
         scored = record.time[record.scored]
         since = scored - np.mean(scored)
         left = record.measured[:, None] - simulated[record.scored]
-        slope: Array = since @ left / (since @ since)
+        slope: Array = since @ left / (since @ since or 1.0)  # a single sample has no slope
         line: Array = (record.time - np.mean(scored))[:, None] * slope
         return simulated + line
 

@@ -124,4 +124,4 @@ def _offset(record: Record) -> float:
     # a loop that starts at rest may sit half its own height off the line, so that much is no offset
     slope = span_out / span_in
     height = float(np.ptp(measured - slope * driven))
-    return max(abs(centre_out - slope * centre_in) - height, 0.0) / span_out
+    return float(max(abs(centre_out - slope * centre_in) - height, 0.0) / span_out)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -45,6 +46,7 @@ class PeaRig(SteppedRig):
     [J] Jung and Gweon, Rev. Sci. Instrum. 71 (2000) 1896-1900: creep of piezoelectric actuators
     """
 
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({"time": "s", "input": "V", "output": "um"})
     experiments: ClassVar[dict[str, str]] = {
         "static-sine": "3 periods of 0.5 Hz, 2.5 V, 6000 samples",
         "sweep": "0.1 to 50 Hz within 10 s, 2.5 V, 20 000 samples",
@@ -93,8 +95,7 @@ class PeaRig(SteppedRig):
         """
         time, voltage = self.drive(experiment)
         displacement = self.sensed(self.simulate(time, voltage), rng)
-        units = {"time": "s", "input": "V", "output": "um"}
-        return Dataset((Record(time, voltage, displacement, experiment, units),), hidden=self.hidden)
+        return Dataset((Record(time, voltage, displacement, experiment, dict(self.units)),), hidden=self.hidden)
 
     def drive(self, experiment: str) -> tuple[Array, Array]:
         """Time in s and voltage in V of an experiment. Raises ValueError for an unknown one."""

@@ -5,10 +5,10 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.noise import noise
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.signals import Record
 
 HUM = {"cosine": 0.3, "sine": -0.2, "frequency": 47.0}

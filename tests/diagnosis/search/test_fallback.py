@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.search.fallback import fall_back, unseen_rmse
-from hysteresis_bench.diagnosis.search.fitter import Fitter
-from hysteresis_bench.diagnosis.search.systems import Stack
 from hysteresis_bench.signals import Record
 
 TRUE = {"alpha": 0.3, "beta": 0.6, "gamma": 0.2, "d": 1.0}

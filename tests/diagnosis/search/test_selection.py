@@ -5,9 +5,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.search.cross_validation import Blocks
-from hysteresis_bench.diagnosis.search.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.nested_test import NestedTest
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import Blocks
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.search.selection import Selection
 
 FLOOR = 0.1
