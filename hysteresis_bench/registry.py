@@ -12,10 +12,13 @@ from typing import Any, Literal
 
 from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
 from hysteresis_bench.declarations import declaration_faults
-from hysteresis_bench.errors import nearest
+from hysteresis_bench.errors import nearest, told
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
+
+SHIPPED = "hysteresis-bench"
+"""The distribution of the framework and of the plugins that come with it."""
 
 # The defaults: the only names of plugins that the framework itself knows.
 SEARCH = "pso-constriction"
@@ -40,6 +43,7 @@ BOUC_WEN, HAMMERSTEIN = "bouc-wen", "hammerstein"
 class Plugin:
     """A registered name, what it is, and where it comes from.
 
+    distribution : the installed package that registers it, as pip names it;  version : of that
     fault : why it cannot be used, or an empty string
     """
 
@@ -49,6 +53,11 @@ class Plugin:
     version: str
     loaded: type | None
     fault: str = ""
+
+    @property
+    def shipped(self) -> bool:
+        """Whether it came with the framework."""
+        return self.distribution == SHIPPED
 
     @property
     def summary(self) -> str:
@@ -61,9 +70,26 @@ def sentence(plugin: type) -> str:
     return " ".join((plugin.__doc__ or "").split("\n\n")[0].split())
 
 
+@dataclass(frozen=True)
+class _Point:
+    """An entry point, and the distribution that registers it."""
+
+    entry: EntryPoint
+    distribution: str
+    version: str
+
+
 @cache
-def _points(kind: Kind) -> Mapping[str, EntryPoint]:
-    return {point.name: point for point in entry_points(group=f"hysteresis_bench.{kind}")}
+def _points(kind: Kind) -> Mapping[str, tuple[_Point, ...]]:
+    """By name; more than one where several distributions register the same."""
+    homes: dict[int, tuple[str, str]] = {}
+    found: dict[str, tuple[_Point, ...]] = {}
+    for entry in entry_points(group=f"hysteresis_bench.{kind}"):
+        if id(entry.dist) not in homes:  # asking a distribution reads its file
+            homes[id(entry.dist)] = (entry.dist.name, entry.dist.version) if entry.dist else ("", "")
+        point = _Point(entry, *homes[id(entry.dist)])
+        found[entry.name] = (*found.get(entry.name, ()), point)
+    return found
 
 
 def names(kind: Kind) -> tuple[str, ...]:
@@ -71,19 +97,35 @@ def names(kind: Kind) -> tuple[str, ...]:
     return tuple(sorted(_points(kind)))
 
 
+def registered(kind: Kind) -> tuple[Plugin, ...]:
+    """Every plugin, loaded, by name; all those that share one, each with its fault."""
+    return tuple(_loaded(kind, name, point) for name in names(kind) for point in _points(kind)[name])
+
+
 def load(kind: Kind, name: str) -> Plugin:
     """Load one plugin; a plugin that cannot be loaded carries its fault. Raises KeyError if unknown."""
     if name not in _points(kind):
         raise KeyError(f'no {kind[:-1]} "{name}". {nearest(name, names(kind))}')
-    point = _points(kind)[name]
-    origin = (point.dist.name, point.dist.version) if point.dist else ("", "")
+    return _loaded(kind, name, _points(kind)[name][0])
+
+
+def _loaded(kind: Kind, name: str, point: _Point) -> Plugin:
+    loaded, fault = _checked(kind, name, point.entry)
+    return Plugin(kind, name, point.distribution, point.version, loaded, fault)
+
+
+def _checked(kind: Kind, name: str, point: EntryPoint) -> tuple[type | None, str]:
+    """What an entry point leads to, or why it cannot be used."""
+    homes = [f"{each.distribution} {each.version}" for each in _points(kind)[name]]
+    if len(homes) > 1:
+        return None, f"registered by {' and by '.join(homes)}; uninstall all but one of them"
     try:
         loaded = point.load()
-    except (Exception, SystemExit) as error:  # a plugin's own fault must not stop the others
-        return Plugin(kind, name, *origin, None, f"{type(error).__name__}: {error}")
+    except (Exception, SystemExit) as error:  # a plugin's own fault, whatever it is, must not stop the others
+        return None, told(error)
     if found := declaration_faults(loaded, CONTRACTS[kind]):
-        return Plugin(kind, name, *origin, None, " · ".join(found))
-    return Plugin(kind, name, *origin, loaded)
+        return None, " · ".join(found)
+    return loaded, ""
 
 
 @cache
@@ -158,7 +200,8 @@ def build_effects(
     """Effects by name as they go around a model: those that it offers are its own. settings : by the effect's name.
     Raises ValueError for an effect that neither is registered nor has room in the model."""
     told = settings or {}
-    homeless = [name for name in effects if name in offered() and name not in (*model.offers, *_points("effects"))]
+    # offered() loads every model, also those of other distributions: asked last
+    homeless = [name for name in effects if name not in (*model.offers, *_points("effects")) and name in offered()]
     if homeless:
         name = homeless[0]
         raise ValueError(f"the model has no room for {name}; models that offer it: {', '.join(offered()[name])}.")

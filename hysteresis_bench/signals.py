@@ -16,6 +16,13 @@ INDEX = "sample"
 """The unit of a time that is only an index."""
 
 
+def read_only(values: Array) -> Array:
+    """The same numbers, into which nobody can write: a plugin that tries gets the ValueError itself."""
+    view = np.asarray(values).view()
+    view.flags.writeable = False
+    return view
+
+
 @dataclass(frozen=True, eq=False)
 class Signal:
     """An input over time, for one or for a swarm of simulations.
@@ -23,12 +30,16 @@ class Signal:
     time : (samples,) strictly increasing, s; an index where `timed` is False: rate effects do not apply
     input : (samples, 1) shared by the swarm, or (samples, swarm)
     columns : further measured columns by name, (samples,) each, such as temperature
+    All arrays are read-only: the next simulation sees them too.
     """
 
     time: Array
     input: Array
     timed: bool = True
     columns: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        _close(self, "time", "input")
 
     def with_input(self, values: Array) -> Signal:
         """The same signal with another input, (samples, 1) or (samples, swarm)."""
@@ -42,6 +53,7 @@ class Record:
     time, input, output : (samples,); output is None where only a prediction is wanted
     units : of "time", "input", "output" and of any further column
     history : leading samples that are simulated but not scored
+    All arrays are read-only.
     """
 
     time: Array
@@ -51,6 +63,9 @@ class Record:
     units: Mapping[str, str] = field(default_factory=lambda: UNITLESS)
     columns: Mapping[str, Array] = field(default_factory=dict)
     history: int = 0
+
+    def __post_init__(self) -> None:
+        _close(self, "time", "input", *(["output"] if self.output is not None else []))
 
     @property
     def timed(self) -> bool:
@@ -106,6 +121,14 @@ class Record:
             columns={key: tiled(column) for key, column in self.columns.items()},
             history=repeats * self.time.size + self.history,
         )
+
+
+def _close(of: Signal | Record, *names: str) -> None:
+    """Make the arrays of these names and the columns read-only."""
+    for name in names:
+        object.__setattr__(of, name, read_only(getattr(of, name)))
+    columns = {name: read_only(column) for name, column in of.columns.items()}
+    object.__setattr__(of, "columns", MappingProxyType(columns))
 
 
 @dataclass(frozen=True, eq=False)

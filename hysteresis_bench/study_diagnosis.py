@@ -19,8 +19,8 @@ from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
+from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.study.lock import alone
-from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import closing_dataset
 from hysteresis_bench.study.reader import Reader
 from hysteresis_bench.study.run import Progress, run_study
@@ -85,7 +85,8 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     out.mkdir()
     begun = time.monotonic()
     ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
-    ((_, _, status, reason),) = run_tickets([ticket], run_closing, jobs=1, timeout=LIMIT)
+    with Pool(Work(at_once(run_closing), LIMIT), 1) as pool:
+        ((_, _, status, reason),) = pool.run([ticket])
     outcome = {
         "asked": asked,
         "hidden": hidden_names(closing_dataset(study, data)),

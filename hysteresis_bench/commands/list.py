@@ -46,13 +46,12 @@ def _nearest(what: str, kinds: tuple[str, ...], everything: set[str]) -> str:
 
 def _list_kind(kind: registry.Kind, console: Console) -> None:
     table = Table(title=kind, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
-    for name in registry.names(kind):
-        plugin = registry.load(kind, name)
+    for plugin in registry.registered(kind):
         summary = plugin.summary
         if kind == "rigs" and plugin.loaded is not None:
             summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
         origin = f"{plugin.distribution} {plugin.version}"
-        table.add_row(f"  {name}", escape(summary), escape(origin), style="red" if plugin.fault else "")
+        table.add_row(f"  {plugin.name}", escape(summary), escape(origin), style="red" if plugin.fault else "")
     if kind == "effects":
         for name, models in registry.offered().items():
             effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]

@@ -22,7 +22,7 @@ from hysteresis_bench.diagnosis_study.results import (
     write_tables,
 )
 from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
-from hysteresis_bench.study.pool import run_tickets
+from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.study.run import default_folder
 
 
@@ -65,11 +65,11 @@ def run_diagnosis_study(
     total = done + len(missing)
     on_progress(CaseProgress(done, total, None))
     models = {bench.name: bench.model for bench in study.bench}
-    workers = jobs or os.cpu_count() or 1
-    for ticket, case, status, reason in run_tickets(missing, run_case, jobs=workers, timeout=study.timeout):
-        ended = case or Case(ticket.bench, models[ticket.bench], ticket.number, status, reason)
-        write_case(folder, ticket, ended)
-        done += 1
-        on_progress(CaseProgress(done, total, ended))
+    with Pool(Work(at_once(run_case), study.timeout), jobs or os.cpu_count() or 1) as pool:
+        for ticket, case, status, reason in pool.run(missing):
+            ended = case or Case(ticket.bench, models[ticket.bench], ticket.number, status, reason)
+            write_case(folder, ticket, ended)
+            done += 1
+            on_progress(CaseProgress(done, total, ended))
     write_tables(folder, read_cases(folder))
     return folder

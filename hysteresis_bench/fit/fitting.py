@@ -16,6 +16,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.asked import asked_faults
+from hysteresis_bench.fit.behaviour import broken_promises
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES
@@ -197,7 +198,7 @@ def _check(system: System, dataset: Dataset, settle: bool) -> None:
     samples = sum(record.measured.size for record in dataset.fitted)
     if samples <= len(system.parameters):
         faults.append(f"{samples} samples cannot determine {len(system.parameters)} parameters.")
-    if faults:
+    if faults := faults or broken_promises(system, dataset.fitted):
         raise UserError("fit", faults)
 
 

@@ -33,7 +33,7 @@ def search(problem: Problem, optimizer: Optimizer, *, budget: int, start: Start,
     """
     objective = Objective(problem, budget)
     with contextlib.suppress(BudgetSpent):
-        optimizer.search(objective, start, rng)
+        optimizer.search(objective.shown(), start, rng)
     if objective.best_point is None:
         raise RuntimeError("the optimizer returned without evaluating anything")
     trace = objective.trace

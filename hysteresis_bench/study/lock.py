@@ -1,14 +1,15 @@
-"""One writer a results folder."""
+"""One writer a results folder, and files that are whole or not there."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
 from hysteresis_bench.errors import UserError
 
-LOCK = ".lock"
+LOCK, PART = ".lock", ".part"
 
 
 @contextmanager
@@ -30,3 +31,10 @@ def alone(folder: Path) -> Iterator[None]:
         except OSError:
             raise UserError(str(folder), "another run is writing to this folder; wait for it.") from None
         yield
+
+
+def write_whole(path: Path, content: str) -> None:
+    """Write a file beside, then put it in its place: a kill leaves the old one or the new one."""
+    beside = path.with_name(f"{path.name}{PART}")
+    beside.write_text(content, encoding="utf-8")
+    os.replace(beside, path)

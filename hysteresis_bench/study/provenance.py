@@ -7,17 +7,18 @@ import json
 import os
 import platform
 from collections.abc import Mapping
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
 from hysteresis_bench import registry
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.study.lock import LOCK
+from hysteresis_bench.study.lock import LOCK, PART, write_whole
+from hysteresis_bench.study.origin import plugins_of, processor, versions
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, STUDY
 from hysteresis_bench.study.study_file import Study, read_study
 
-PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "matplotlib", "pebble")
+OURS = (LOCK, PUBLISHED, PROVENANCE, STUDY)
+"""What a run that was killed at its very beginning leaves."""
 
 
 def describe(folder: Path, path: Path, *, study: Study, text: str, units: Mapping[str, Mapping[str, str]]) -> None:
@@ -33,15 +34,15 @@ def describe(folder: Path, path: Path, *, study: Study, text: str, units: Mappin
         if faults:
             raise UserError(f"{folder} holds another study", [*faults, "Choose another folder with --out."])
         provenance["optimizers"] = {**old["optimizers"], **provenance["optimizers"]}
-    elif any(file.name != LOCK for file in folder.iterdir()):
+    elif any(file.name.removesuffix(PART) not in OURS for file in folder.iterdir()):
         raise UserError(str(folder), "is not empty and holds no study. Choose another folder with --out.")
     if study.published:
         source = path.parent / study.published
         if not source.is_file():
             raise UserError(str(path), f'published = "{study.published}": there is no such file beside the study.')
-        (folder / PUBLISHED).write_bytes(source.read_bytes())
-    (folder / PROVENANCE).write_text(json.dumps(provenance, indent=1) + "\n", encoding="utf-8")
-    (folder / STUDY).write_text(text, encoding="utf-8")
+        write_whole(folder / PUBLISHED, source.read_text(encoding="utf-8"))
+    write_whole(folder / PROVENANCE, json.dumps(provenance, indent=1) + "\n")
+    write_whole(folder / STUDY, text)  # last: it makes the folder one of this study
 
 
 def _differences(before: Study, now: Study, old: dict[str, Any], new: dict[str, Any]) -> list[str]:
@@ -74,27 +75,17 @@ def _provenance(study: Study, path: Path) -> dict[str, Any]:
             "budget": study.budget_of(spec),
             "summary": plugin.summary,
             "distribution": plugin.distribution,
+            "version": plugin.version,
             "evaluations_per_iteration": built.evaluations_per_iteration(dimension),
         }
     files = [file for spec in study.problem for file in spec.data]
     return {
-        "versions": {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}},
-        "machine": {"system": platform.platform(), "processor": _processor(), "cores": os.cpu_count()},
+        "versions": dict(versions()),
+        "machine": {"system": platform.platform(), "processor": processor(), "cores": os.cpu_count()},
+        "plugins": [
+            {"kind": plugin.kind, "name": plugin.name, "distribution": plugin.distribution, "version": plugin.version}
+            for plugin in plugins_of(study)
+        ],
         "optimizers": optimizers,
         "data": {file: hashlib.sha256((path.parent / file).read_bytes()).hexdigest() for file in files},
     }
-
-
-def _version(package: str) -> str:
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "not installed"
-
-
-def _processor() -> str:
-    try:
-        lines = Path("/proc/cpuinfo").read_text().splitlines()
-    except OSError:
-        return platform.processor()
-    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown")

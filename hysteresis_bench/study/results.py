@@ -13,6 +13,7 @@ import pandas as pd
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
+from hysteresis_bench.study.origin import mixed
 from hysteresis_bench.study.reader import Reader
 from hysteresis_bench.study.store import COLUMNS, DAMAGED, FILE, Store
 from hysteresis_bench.study.study_file import Study, read_study
@@ -24,7 +25,17 @@ IDENTIFIABILITY, STAGES = "identifiability.json", "stages.csv"
 RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
 STAGE_COLUMNS = ("stage", "quantity", "name", "value")
 
-STATUSES = ("done", "finished-early", "raised", "timed-out", "crashed", "out-of-memory")
+STATUSES = (
+    "done",
+    "finished-early",
+    "no-finite-loss",
+    "raised",
+    "timed-out",
+    "crashed",
+    "out-of-memory",
+    "killed",
+    "not-started",
+)
 FINISHED = ("done", "finished-early")
 """Statuses of a trial that has a result."""
 
@@ -43,6 +54,7 @@ class Results:
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
+    mixed : a sentence for each thing in which trials differ that should not: package versions, processors
     damages : sentences on what could not be read
     closing : the diagnosis at the end; None where the study asks for none, or none was tried
     """
@@ -58,6 +70,7 @@ class Results:
     stages: pd.DataFrame
     closing: Closing | None = None
     damages: tuple[str, ...] = ()
+    mixed: tuple[str, ...] = ()
 
     def _repr_html_(self) -> str:
         """For a notebook: by problem and optimizer, the trials, how many have a result, and the median error."""
@@ -78,7 +91,7 @@ def read_results(folder: Path) -> Results:
         raise UserError(str(folder), f"holds no results: there is no {STUDY} in it.")
     study, _ = read_study(folder / STUDY)
     reader = Reader(folder)
-    trials, traces = _trials(reader)
+    trials, traces, origins = _trials(reader)
     closing = read_closing(reader) if study.closing else None
     return Results(
         folder,
@@ -92,16 +105,18 @@ def read_results(folder: Path) -> Results:
         reader.csv(STAGES, STAGE_COLUMNS),
         closing,
         tuple(reader.damages),
+        mixed(origins),
     )
 
 
-def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int], Trace]]:
+def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int], Trace], Mapping[str, int]]:
+    """The trials, their traces, and how many were made with which versions and processor."""
     if (reader.folder / FILE).is_file():
         try:
             with Store.reading(reader.folder) as store:
-                trials, traces = store.table(), store.traces()
+                trials, traces, origins = store.table(), store.traces(), store.origins()
             if not trials.empty:
-                return trials, traces
+                return trials, traces, origins
         except DAMAGED as error:
             reader.said(FILE, error)
     trials = reader.csv(TRIALS, COLUMNS)
@@ -113,4 +128,4 @@ def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int],
     reader.damages.append(
         f"The course of the searches is not kept here ({FILE}): trials are told from {TRIALS}, without convergence."
     )
-    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}
+    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}, {}

@@ -14,14 +14,21 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.seeds import seed_of
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
+from hysteresis_bench.study.execution.pool import Pool, Work
+from hysteresis_bench.study.execution.trial import (
+    Ticket,
+    needs_own_process,
+    prepare_trial,
+    rehearsals,
+    seed_key,
+    tickets_of,
+)
 from hysteresis_bench.study.lock import alone
-from hysteresis_bench.study.pool import run_tickets
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.provenance import describe
 from hysteresis_bench.study.results import IDENTIFIABILITY, RESPONSES, STAGES, TRIALS
 from hysteresis_bench.study.store import Outcome, Store
 from hysteresis_bench.study.study_file import Study, read_study
-from hysteresis_bench.study.trial import Ticket, run_trial, seed_key
 
 
 @dataclass(frozen=True)
@@ -59,7 +66,7 @@ def run_study(
         describe(folder, path, study=study, text=text, units=units)
         with Store(folder) as store:
             store.begin(study.title)
-            tickets = _tickets(study, path.parent, trials or study.trials)
+            tickets = tickets_of(study, path.parent, trials or study.trials)
             _run_missing(store, study, tickets, jobs or os.cpu_count() or 1, on_progress)
             table, traces = store.table(), store.traces()
     write_table(folder / TRIALS, table)
@@ -79,17 +86,6 @@ def default_folder(study: Path) -> Path:
     return (home.parent if home.name == "studies" else home) / "runs" / study.stem
 
 
-def _tickets(study: Study, data: Path, trials: int) -> list[Ticket]:
-    """Trial by trial, so that a study that was stopped has as much of everything as can be."""
-    text, folder = study.model_dump_json(), str(data.resolve())
-    return [
-        Ticket(text, folder, problem.name, label, trial)
-        for trial in range(trials)
-        for problem in study.problem
-        for label in problem.optimizers or study.labels
-    ]
-
-
 def _run_missing(
     store: Store, study: Study, tickets: Sequence[Ticket], jobs: int, on_progress: Callable[[Progress], None]
 ) -> None:
@@ -97,10 +93,13 @@ def _run_missing(
     missing = [ticket for ticket in tickets if ticket.key not in present]
     done = len(tickets) - len(missing)
     on_progress(Progress(done, len(tickets), None))
-    for ticket, outcome, status, reason in run_tickets(missing, run_trial, jobs=jobs, timeout=study.timeout):
-        if outcome is None:
+    if not missing:
+        return
+    work = Work(prepare_trial, study.timeout, rehearsals(missing), needs_own_process)
+    with Pool(work, jobs) as pool:
+        for ticket, outcome, status, reason in pool.run(missing):
             seed = seed_of(*seed_key(study, ticket))[:16]
-            outcome = Outcome(*ticket.key, seed=seed, status=status, reason=reason)
-        store.add(outcome)
-        done += 1
-        on_progress(Progress(done, len(tickets), outcome))
+            ended = outcome or Outcome(*ticket.key, seed=seed, status=status, reason=reason)
+            store.add(ended)
+            done += 1
+            on_progress(Progress(done, len(tickets), ended))

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from hysteresis_bench import registry
-from hysteresis_bench.study.pool import run_tickets
+from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.testing.contracts.contract import Broken, promises
 from hysteresis_bench.testing.contracts.effects import EffectContract
 from hysteresis_bench.testing.contracts.models import ModelContract
@@ -59,18 +59,17 @@ def check(kind: registry.Kind, plugin: str, timeout: float) -> Iterator[Verdict]
         return
     asked = promises(CONTRACTS[kind])
     found: dict[str, Verdict] = {}
-    for question, outcome, status, reason in run_tickets(
-        [Question(kind, plugin, method) for method in asked], answer, jobs=1, timeout=timeout
-    ):
-        promise = asked[question.method]
-        found[question.method] = outcome or Verdict(promise, BROKEN, f"{status}: {reason}.")
-        if status == TIMED_OUT:
-            found[question.method] = Verdict(promise, BROKEN, f"{reason}; what had not been tried by then was not.")
-            break
-    yield from (found[method] for method in asked if method in found)
-    if all(verdict.status == KEPT for verdict in found.values()):
-        for _, outcome, status, reason in run_tickets([Question(kind, plugin, SPEED)], answer, jobs=1, timeout=timeout):
-            yield outcome or Verdict("Its speed can be measured.", BROKEN, f"{status}: {reason}.")
+    with Pool(Work(at_once(answer), timeout), jobs=1) as pool:
+        for question, outcome, status, reason in pool.run([Question(kind, plugin, method) for method in asked]):
+            promise = asked[question.method]
+            found[question.method] = outcome or Verdict(promise, BROKEN, f"{status}: {reason}.")
+            if status == TIMED_OUT:
+                found[question.method] = Verdict(promise, BROKEN, f"{reason}; what had not been tried by then was not.")
+                break
+        yield from (found[method] for method in asked if method in found)
+        if all(verdict.status == KEPT for verdict in found.values()):
+            for _, outcome, status, reason in pool.run([Question(kind, plugin, SPEED)]):
+                yield outcome or Verdict("Its speed can be measured.", BROKEN, f"{status}: {reason}.")
 
 
 def answer(question: Question) -> Verdict:

@@ -92,9 +92,8 @@ def test_the_rig_hides_it_and_no_nuisance(rig, dataset):
 
 
 def test_it_is_diagnosed(dataset):
-    found = diagnose(
-        Dataset(dataset.records, dataset.held_out_names), Question("bouc-wen", options=DiagnosisOptions(jobs=1))
-    )
+    blind = Dataset(dataset.records, dataset.held_out_names)
+    found = diagnose(blind, Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
     assert BEND in found.effects or BEND in {one.rival for one in found.ties}
     assert found.after.held_out.rmse < 0.7 * found.before.held_out.rmse
 

@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 
 from tests.conftest import PLUGINS
+from tests.study.test_pool import descendants
 
 COMMAND = [sys.executable, "-m", "hysteresis_bench"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(PLUGINS), "COLUMNS": "140"}
@@ -176,23 +177,22 @@ def test_changed_data_are_another_study(finished, tmp_path):
     assert "cubic.csv has changed" in done.stderr
 
 
-def test_workers_end_with_a_killed_parent(tmp_path):
+@pytest.mark.parametrize("command", ["run", "diagnose"])
+def test_workers_end_with_a_killed_parent(command, tmp_path):
     study = write_study(tmp_path, ["faulty-hangs"])
-    command = [*COMMAND, "run", str(study), "--jobs", "2"]
-    running = subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    def children() -> list[Path]:
-        stats = [(path, path.read_text().rpartition(")")[2].split()) for path in Path("/proc").glob("[0-9]*/stat")]
-        return [path for path, fields in stats if fields[1] == str(running.pid)]
-
-    deadline = time.monotonic() + 60
-    while len(children()) < 3 and time.monotonic() < deadline:  # two workers and multiprocessing's tracker
-        time.sleep(0.2)
-    workers = children()
-    assert len(workers) >= 3
-    time.sleep(3)
+    commands = {
+        "run": ["run", study, "--jobs", "2"],
+        "diagnose": ["diagnose", tmp_path / "cubic.csv", "--model", "bouc-wen", "--jobs", "2", "--out", tmp_path / "d"],
+    }
+    arguments = [*COMMAND, *map(str, commands[command])]
+    running = subprocess.Popen(arguments, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 90
+    least = {"run": 3, "diagnose": 2}[command]  # the template of the workers, and two of these
+    while len(workers := descendants(running.pid)) < least and time.monotonic() < deadline and running.poll() is None:
+        time.sleep(0.1)
+    assert len(workers) >= least
     running.kill()
     running.wait()
-    while any(path.exists() for path in workers) and time.monotonic() < deadline + 30:
-        time.sleep(0.2)
-    assert not any(path.exists() for path in workers)
+    while any(Path(f"/proc/{worker}").exists() for worker in workers) and time.monotonic() < deadline + 30:
+        time.sleep(0.1)
+    assert not any(Path(f"/proc/{worker}").exists() for worker in workers)

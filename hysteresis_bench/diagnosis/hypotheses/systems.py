@@ -10,6 +10,7 @@ from typing import get_args
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Acts, Effect, Family, Model
+from hysteresis_bench.fit.behaviour import broken_promises
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space
@@ -86,9 +87,17 @@ class Stack:
                 continue
             elif reason := self.effect(name).inapplicable(self.records):
                 impossible[name] = reason
+            elif broken := self._broken_promises(name):
+                impossible[name] = f"broken: {broken}"
             else:
                 possible.append(name)
         return tuple(possible), impossible
+
+    def _broken_promises(self, name: str) -> str:
+        """Of an effect of another distribution; our own are tested."""
+        if name in self.model.offers or registry.load("effects", name).shipped:
+            return ""
+        return " ".join(broken_promises(System(self.model, ((name, self.effect(name)),)), self.records))
 
 
 @cache

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from types import TracebackType
@@ -10,6 +11,7 @@ from typing import Any
 
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.study.execution.lifetime import end_with
 
 _fitter: Fitter
 
@@ -23,7 +25,9 @@ class Workers:
         if jobs > 1 and "fork" in multiprocessing.get_all_start_methods():
             context = multiprocessing.get_context("fork")
             # forked, not pickled: the workers find the records where they are
-            self._pool = ProcessPoolExecutor(jobs, mp_context=context, initializer=_install, initargs=(fitter,))
+            self._pool = ProcessPoolExecutor(
+                jobs, mp_context=context, initializer=_install, initargs=(fitter, os.getpid())
+            )
 
     def __enter__(self) -> Workers:
         return self
@@ -39,9 +43,10 @@ class Workers:
         return [getattr(self._fitter, method)(*arguments) for method, *arguments in questions]
 
 
-def _install(fitter: Fitter) -> None:
+def _install(fitter: Fitter, parent: int) -> None:
     global _fitter
     _fitter = fitter
+    end_with(parent)
 
 
 def _answer(question: tuple[Any, ...]) -> Hypothesis:
