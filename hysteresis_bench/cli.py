@@ -9,13 +9,13 @@ import click
 from rich.console import Console
 from rich.markup import escape
 
-from hysteresis_bench.commands.check_plugin import check_plugin
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
-from hysteresis_bench.commands.list import list_plugins
 from hysteresis_bench.commands.measure import measure
-from hysteresis_bench.commands.new_plugin import new_plugin
+from hysteresis_bench.commands.plugins.check_plugin import check_plugin
+from hysteresis_bench.commands.plugins.list import list_plugins
+from hysteresis_bench.commands.plugins.new_plugin import new_plugin
 from hysteresis_bench.commands.predict import predict
 from hysteresis_bench.commands.report import report
 from hysteresis_bench.commands.run import run

@@ -11,7 +11,7 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.asked import asked_faults
+from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.signals import Dataset

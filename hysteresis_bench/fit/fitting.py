@@ -15,8 +15,8 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
-from hysteresis_bench.fit.asked import asked_faults
-from hysteresis_bench.fit.behaviour import broken_promises
+from hysteresis_bench.fit.checks.asked import asked_faults
+from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
 from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES

@@ -16,7 +16,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.behaviour import broken_promises
+from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.fitting import fit_records
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import write_model

@@ -10,7 +10,7 @@ from typing import get_args
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Acts, Effect, Family, Model
-from hysteresis_bench.fit.behaviour import broken_promises
+from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space

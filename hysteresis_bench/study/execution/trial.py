@@ -13,7 +13,7 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Optimizer
 from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.behaviour import BrokenPromise, broken_promises
+from hysteresis_bench.fit.checks.behaviour import BrokenPromise, broken_promises
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, seed_of, shared_start
 from hysteresis_bench.study.origin import origin, plugins_of_problem, plugins_of_trial
