@@ -2,9 +2,10 @@
 PYTHON ?= python3
 TRIALS ?= 3
 STUDY  ?= studies/sma.toml
+NEWEST ?=
 BIN    := .venv/bin
 
-.PHONY: install study test benchmark clean
+.PHONY: install study test test-newest docs benchmark clean
 
 install: .venv/installed
 
@@ -17,11 +18,18 @@ test: .venv/installed-test
 	$(BIN)/mypy
 	$(BIN)/python -m pytest -n auto
 
+# NEWEST: arguments for pytest, such as what to leave out.
+test-newest: .venv/installed
+	.ci/test-newest -n auto $(NEWEST)
+
+docs: .venv/installed-docs
+	$(BIN)/mkdocs build --strict --config-file docs/mkdocs.yml
+
 benchmark: .venv/installed-test
 	$(BIN)/python benchmarks/kernels.py
 
 clean:
-	rm -rf .venv .pytest_cache .ruff_cache .mypy_cache .hypothesis
+	rm -rf .venv .venv-newest site .pytest_cache .ruff_cache .mypy_cache .hypothesis
 
 .venv/installed: pyproject.toml
 	test -x $(BIN)/python || $(PYTHON) -m venv .venv
@@ -29,5 +37,9 @@ clean:
 	touch $@
 
 .venv/installed-test: .venv/installed
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,docs]'
+	touch $@
+
+.venv/installed-docs: .venv/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
 	touch $@

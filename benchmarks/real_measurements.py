@@ -23,8 +23,11 @@ import numpy as np
 from hysteresis_bench import load
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.report.diagnosis.figures import waterfall
-from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render
+from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Paragraph, Table
+from hysteresis_bench.report.shared.page import Page, Section, files_beside
+from hysteresis_bench.report.shared.text import NONE, listed, number, sentence
 from hysteresis_bench.signals import Dataset, Record
 
 ROOT = Path(__file__).parent.parent
@@ -52,7 +55,8 @@ class Case:
     held_out: tuple[str, ...] = ()
     skip: float | None = None
     smooth: int = 1
-    options: Mapping[str, Any] = field(default_factory=dict)
+    effects: tuple[str, ...] = ()
+    options: DiagnosisOptions = field(default_factory=DiagnosisOptions)
 
 
 PIEZO = ("piezo-picma-ntu/full_amplitude_1Hz.csv", "piezo-picma-ntu/modulated_1Hz_ramp_down.csv")
@@ -82,7 +86,7 @@ CASES = (
         "noise is 0.065 µm; offsets differ between records",
         held_out=("modulated_1Hz_ramp_down",),
         skip=0.5,
-        options={"effects": ("record-offset",)},
+        effects=("record-offset",),
     ),
     Case(
         "piezo, several amplitudes fitted",
@@ -93,7 +97,7 @@ CASES = (
         "the same records, but the one whose amplitude changes is fitted and the one of full amplitude held out",
         held_out=("full_amplitude_1Hz",),
         skip=0.5,
-        options={"effects": ("record-offset",)},
+        effects=("record-offset",),
     ),
     Case(
         "piezo, each record's own drift",
@@ -105,7 +109,7 @@ CASES = (
         "record drifts by half a micrometre, the other does not",
         held_out=("full_amplitude_1Hz",),
         skip=0.5,
-        options={"effects": ("record-offset", "record-drift")},
+        effects=("record-offset", "record-drift"),
     ),
     Case(
         "piezo, within one record",
@@ -115,7 +119,7 @@ CASES = (
         "bouc-wen",
         "the first two thirds of the full-amplitude record fitted, the last third predicted",
         skip=0.5,
-        options={"effects": ("record-offset",)},
+        effects=("record-offset",),
     ),
     Case(
         "capacitor, 400 Hz and above",
@@ -144,7 +148,7 @@ CASES = (
         "jiles-atherton-clamped",
         "two closed loops without a time base",
         held_out=("loops:0",),
-        options={"settle": True},
+        options=DiagnosisOptions(settle=True),
     ),
     Case(
         "Mn-Zn ferrite",
@@ -154,7 +158,7 @@ CASES = (
         "jiles-atherton-clamped",
         "three closed loops without a time base, made symmetric by their author",
         held_out=("loops:1",),
-        options={"settle": True},
+        options=DiagnosisOptions(settle=True),
     ),
     Case(
         "PZT film",
@@ -165,7 +169,7 @@ CASES = (
         "triangles of 100 to 1000 Hz after a pulse that is not recorded; the tester delays by 1 to 13 µs",
         runs=_runs(PZT, (2, 3, 4, 5, 6)),
         held_out=_runs(PZT, (4,)),
-        options={"settle": True},
+        options=DiagnosisOptions(settle=True),
     ),
     Case(
         "hafnium oxide film",
@@ -176,7 +180,7 @@ CASES = (
         "triangles of 100 to 1000 Hz; a leaky film, whose loops need not close",
         runs=_runs(HFO2, (2, 3, 4, 5, 6)),
         held_out=_runs(HFO2, (4,)),
-        options={"settle": True},
+        options=DiagnosisOptions(settle=True),
     ),
     Case(
         "FeFET gate stack",
@@ -187,7 +191,7 @@ CASES = (
         "triangles of 100 to 1000 Hz; asymmetric loops, open at zero volts",
         runs=_runs(FEFET, (2, 3, 4, 5, 6)),
         held_out=_runs(FEFET, (4,)),
-        options={"settle": True},
+        options=DiagnosisOptions(settle=True),
     ),
     Case(
         "shape memory alloy",
@@ -200,7 +204,8 @@ CASES = (
         runs=tuple(f"thermal_cycles:{run}" for run in (8, 16, 24, 32, 40, 48)),
         held_out=("thermal_cycles:24", "thermal_cycles:48"),
         smooth=9,
-        options={"settle": True, "flip": True, "input_offset": 130.0, "effects": ("record-offset",)},
+        effects=("record-offset",),
+        options=DiagnosisOptions(settle=True, flip=True, input_offset=130.0),
     ),
 )
 
@@ -269,22 +274,30 @@ def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mappin
     parts = []
     for one in rows:
         case = next((case for case in CASES if case.name == one["case"]), None)
-        if case is None:
-            continue
-        mine = [(step["step"], float(step["rmse"])) for step in steps if step["case"] == case.name]
-        held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
-        drawn = waterfall(folder, mine, held_out, {"output": one["unit"]}, "".join(c for c in case.name if c.isalnum()))
-        parts.append((case, one, drawn, _parameters(one)))
-    text = render(
-        "measurements.html.j2",
-        title="Diagnosis of real measurements",
-        kicker=f"{len(parts)} devices and questions",
-        summary=_summary(rows),
-        parts=parts,
-        files=[(NUMBERS, "a row a case"), (STEPS, "the error step by step")],
+        if case is not None:
+            parts.append(_section(folder, case, one, [step for step in steps if step["case"] == case.name]))
+    how = (
+        "By benchmarks/real_measurements.py. The measurements are not part of the project; only what is derived from "
+        "them is kept here."
     )
-    (folder / PAGE).write_text(text, encoding="utf-8")
-    return folder / PAGE
+    made = Section(
+        "made", "How it was made", [how, files_beside({NUMBERS: "a row a case", STEPS: "error step by step"})]
+    )
+    sections = [Section("summary", "", [_summary(rows)]), *parts, made]
+    return Page("Diagnosis of real measurements", f"{len(parts)} devices and questions", sections).write(folder / PAGE)
+
+
+def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[Mapping[str, str]]) -> Section:
+    """A case: what is known of the device, what was found, step by step."""
+    held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
+    bars = [(step["step"], float(step["rmse"])) for step in steps]
+    name = "".join(c for c in case.name if c.isalnum())
+    drawn, parameters = waterfall(folder, bars, held_out, units={"output": one["unit"]}, name=name), _parameters(one)
+    ties = [f"These records do not tell apart: {one['ties']}."] if one["ties"] else []
+    advice = [one["advice"]] if one["advice"] else []
+    blocks: list[Block] = [Paragraph(sentence(f"{case.device}: {case.known}"), "note"), one["headline"]]
+    blocks += [sentence(one["hysteresis"]), *ties, *advice, Figures([drawn])]
+    return Section("", f"{case.name[0].upper()}{case.name[1:]}", [*blocks, *([parameters] if parameters.rows else [])])
 
 
 def _summary(rows: Sequence[Mapping[str, str]]) -> Table:
@@ -352,7 +365,7 @@ def main(say: Callable[[str], None] = print) -> None:
         if case.name not in arguments.names if arguments.names else case.name in rows:
             continue
         begun = time.monotonic()
-        found = diagnose(prepared(case), case.model, **case.options)
+        found = diagnose(prepared(case), Question(case.model, case.effects, options=case.options))
         rows[case.name] = {
             key: str(v) if v is not None else "" for key, v in row(case, found, time.monotonic() - begun).items()
         }

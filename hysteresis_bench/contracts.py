@@ -11,8 +11,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Literal, Protocol, TypeAlias
 
 import numpy as np
 from numpy.random import Generator
@@ -25,6 +26,35 @@ Start = Callable[[int], Array]
 """start(particles) -> (dimension, particles): the first points, shared by all optimizers of a trial.
 The first k columns do not depend on how many are asked for."""
 
+Acts: TypeAlias = Literal["law", "input", "output", "added"]
+"""Where an effect acts, in the order of the chain: inside or beside the law, on the input that it sees, on its output,
+or merely added to that."""
+
+Family: TypeAlias = Literal[
+    "law",
+    "curve of the input",
+    "linear dynamics before the law",
+    "curve of the output",
+    "added disturbance",
+    "change with time, path or temperature",
+    "linear dynamics after the law",
+]
+"""Effects of one family do alike. Of those that act in one place, the earlier family stands further inside."""
+
+
+@dataclass(frozen=True)
+class Example:
+    """With what a model makes data of its own, when effects are hidden in them.
+
+    amplitude : of the drive;  parameters : values by name;  stream : the model's own random numbers, unlike those of
+    every other model, so that another model changes no draw;  without : effects that no data can be made with
+    """
+
+    amplitude: float
+    parameters: Mapping[str, float]
+    stream: int
+    without: tuple[str, ...] = ()
+
 
 class Model(ABC):
     """A hysteresis model: input over time to output over time."""
@@ -36,6 +66,8 @@ class Model(ABC):
     """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
     put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
     elsewhere p has no such field."""
+    example: ClassVar[Example | None] = None
+    """With what it makes data, where it may be asked to."""
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:
@@ -52,10 +84,50 @@ class Model(ABC):
         return ()
 
 
+@dataclass(frozen=True, eq=False)
+class Hiding:
+    """What a formula may depend on that hides an effect in made data.
+
+    strength : 0 to 1, the larger the more the effect changes;  random : three numbers, 0 to 1, for whatever else is
+    free, such as a sign or a phase
+    time, drive, temperature : (samples,), evenly and finely sampled, temperature in degC;  drive : before any effect
+    step : of the time;  duration : of the longest record;  fastest : highest frequency of the drives, 1 / unit of time
+    amplitude : largest drive;  top : the bare model's output there
+    """
+
+    strength: float
+    random: tuple[float, float, float]
+    time: Array
+    drive: Array
+    temperature: Array
+    step: float
+    duration: float
+    fastest: float
+    amplitude: float
+    top: float
+
+
+Response: TypeAlias = Callable[[Array], Array]
+"""response(u) -> output, (samples,) both."""
+
+HiddenForm: TypeAlias = Callable[[Response, Array, Hiding], Array]
+"""form(inner, u, hiding) -> output: as Effect.apply, for one input (samples,) and without the effect's own code, by
+another formula or another discretisation. inner : the response of what is wrapped."""
+
+
 class Effect(ABC):
     """A physical effect around a model. At its null value it changes nothing, to the last bit."""
 
     parameters: ClassVar[tuple[Parameter, ...]]
+    acts: ClassVar[Acts]
+    family: ClassVar[Family]
+    nuisance: ClassVar[bool] = False
+    """True: it is estimated and never claimed. It stands outside all others that act where it does."""
+    mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Other effects by name, and why data may not tell them from this one: the end of a sentence that a report prints.
+    It is enough for one of the two to say so."""
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
+    """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
 
     @abstractmethod
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
@@ -140,3 +212,40 @@ class Rig(ABC):
     @abstractmethod
     def measure(self, experiment: str, rng: Generator) -> Dataset:
         """One experiment -> a dataset with units and, in `hidden`, what was hidden in it."""
+
+
+class Plant(Protocol):
+    """A sampled actuator: a state goes in, a new state comes out, nothing is kept between."""
+
+    def rest(self) -> Any:
+        """The state before anything happens."""
+
+    def step(self, state: Any, voltage: float) -> Any:
+        """One interval later, the voltage held."""
+
+    def displacement(self, state: Any) -> float:
+        """The true output."""
+
+    def read(self, state: Any, rng: Generator) -> float:
+        """What the sensor says."""
+
+
+class SteppedRig(Rig):
+    """A rig that a controller can drive, sample by sample."""
+
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Of "time", "input" and "output"; a model in others is refused. One that is absent is not compared."""
+
+    @abstractmethod
+    def plant(self, rate: float) -> Plant:
+        """The rig as a sampled actuator; rate : samples a second."""
+
+    @property
+    @abstractmethod
+    def input_limit(self) -> float:
+        """Largest input, to either side."""
+
+    @property
+    @abstractmethod
+    def noise_floor(self) -> float:
+        """RMS of what the sensor adds, unit of the output."""

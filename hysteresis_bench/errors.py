@@ -23,7 +23,9 @@ class UserError(Exception):
             return f"{self.where}: {self.faults[0]}"
         return f"{self.where} has {len(self.faults)} faults: " + " · ".join(self.faults)
 
-    def __reduce__(self) -> tuple:  # exceptions with two arguments do not survive pickling unaided
+    def __reduce__(
+        self,
+    ) -> tuple[type[UserError], tuple[str, list[str]]]:  # exceptions with two arguments do not survive pickling unaided
         return type(self), (self.where, self.faults)
 
 
@@ -33,3 +35,19 @@ def nearest(name: str, known: Iterable[str]) -> str:
     close = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
     meant = f' Did you mean "{close[0]}"?' if close else ""
     return f"Known: {', '.join(names) or 'none'}.{meant}"
+
+
+LONGEST = 500
+"""Characters of an exception that are kept."""
+
+
+def told(error: BaseException) -> str:
+    """What an exception of somebody else's says, printable and not too long, whatever it does when it is asked."""
+    name = type(error).__name__
+    try:
+        text = str(error)[: 4 * LONGEST]
+    except BaseException:
+        text = "it cannot be put into words"
+    words = " ".join(text.split())
+    whole = f"{name}: {words}" if words else name
+    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in whole)[:LONGEST]

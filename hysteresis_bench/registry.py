@@ -11,24 +11,53 @@ from importlib.metadata import EntryPoint, entry_points
 from typing import Any, Literal
 
 from hysteresis_bench.contracts import Effect, Model, Optimizer, Rig
-from hysteresis_bench.errors import nearest
+from hysteresis_bench.declarations import declaration_faults
+from hysteresis_bench.errors import nearest, told
 
 Kind = Literal["models", "effects", "optimizers", "rigs"]
 CONTRACTS: dict[Kind, type] = {"models": Model, "effects": Effect, "optimizers": Optimizer, "rigs": Rig}
+
+SHIPPED = "hysteresis-bench"
+"""The distribution of the framework and of the plugins that come with it."""
+
+# The defaults: the only names of plugins that the framework itself knows.
+SEARCH = "pso-constriction"
+"""The search of a fit where none is asked for: what `studies/sma.toml` shows for a log-scaled box. It succeeds in 30
+of 30 trials, as the best ones do, and is the cheapest of these by far (0.1 s a trial); the polish does the rest."""
+REFERENCE = "pso"
+"""What a study compares its optimizers with where it says nothing else."""
+RANDOM_SEARCH = "random-search"
+"""What every search must beat: the yardstick of a study's figures."""
+COMMON_OFFSET = "bias"
+"""The effect that adds one constant to all records."""
+RECORD_OFFSET = "record-offset"
+"""The effect that estimates one constant a record: what every diagnosis begins with."""
+OFFSETS = (COMMON_OFFSET, RECORD_OFFSET)
+DESCRIPTION = "description"
+"""The effect that adds accepted terms to the output: a description, and no physics."""
+BOUC_WEN, HAMMERSTEIN = "bouc-wen", "hammerstein"
+"""The models whose inverse `control` knows: hysteresis alone, and with a linear section behind it."""
 
 
 @dataclass(frozen=True)
 class Plugin:
     """A registered name, what it is, and where it comes from.
 
+    distribution : the installed package that registers it, as pip names it;  version : of that
     fault : why it cannot be used, or an empty string
     """
 
     kind: Kind
     name: str
     distribution: str
+    version: str
     loaded: type | None
     fault: str = ""
+
+    @property
+    def shipped(self) -> bool:
+        """Whether it came with the framework."""
+        return self.distribution == SHIPPED
 
     @property
     def summary(self) -> str:
@@ -41,9 +70,26 @@ def sentence(plugin: type) -> str:
     return " ".join((plugin.__doc__ or "").split("\n\n")[0].split())
 
 
+@dataclass(frozen=True)
+class _Point:
+    """An entry point, and the distribution that registers it."""
+
+    entry: EntryPoint
+    distribution: str
+    version: str
+
+
 @cache
-def _points(kind: Kind) -> Mapping[str, EntryPoint]:
-    return {point.name: point for point in entry_points(group=f"hysteresis_bench.{kind}")}
+def _points(kind: Kind) -> Mapping[str, tuple[_Point, ...]]:
+    """By name; more than one where several distributions register the same."""
+    homes: dict[int, tuple[str, str]] = {}
+    found: dict[str, tuple[_Point, ...]] = {}
+    for entry in entry_points(group=f"hysteresis_bench.{kind}"):
+        if id(entry.dist) not in homes:  # asking a distribution reads its file
+            homes[id(entry.dist)] = (entry.dist.name, entry.dist.version) if entry.dist else ("", "")
+        point = _Point(entry, *homes[id(entry.dist)])
+        found[entry.name] = (*found.get(entry.name, ()), point)
+    return found
 
 
 def names(kind: Kind) -> tuple[str, ...]:
@@ -51,23 +97,35 @@ def names(kind: Kind) -> tuple[str, ...]:
     return tuple(sorted(_points(kind)))
 
 
+def registered(kind: Kind) -> tuple[Plugin, ...]:
+    """Every plugin, loaded, by name; all those that share one, each with its fault."""
+    return tuple(_loaded(kind, name, point) for name in names(kind) for point in _points(kind)[name])
+
+
 def load(kind: Kind, name: str) -> Plugin:
     """Load one plugin; a plugin that cannot be loaded carries its fault. Raises KeyError if unknown."""
     if name not in _points(kind):
         raise KeyError(f'no {kind[:-1]} "{name}". {nearest(name, names(kind))}')
-    point = _points(kind)[name]
-    distribution = point.dist.name if point.dist else ""
+    return _loaded(kind, name, _points(kind)[name][0])
+
+
+def _loaded(kind: Kind, name: str, point: _Point) -> Plugin:
+    loaded, fault = _checked(kind, name, point.entry)
+    return Plugin(kind, name, point.distribution, point.version, loaded, fault)
+
+
+def _checked(kind: Kind, name: str, point: EntryPoint) -> tuple[type | None, str]:
+    """What an entry point leads to, or why it cannot be used."""
+    homes = [f"{each.distribution} {each.version}" for each in _points(kind)[name]]
+    if len(homes) > 1:
+        return None, f"registered by {' and by '.join(homes)}; uninstall all but one of them"
     try:
         loaded = point.load()
-    except Exception as error:  # a plugin's own fault, whatever it is, must not stop the others
-        return Plugin(kind, name, distribution, None, f"{type(error).__name__}: {error}")
-    contract = CONTRACTS[kind]
-    if not (isinstance(loaded, type) and issubclass(loaded, contract)):
-        return Plugin(kind, name, distribution, None, f"{point.value} does not keep the contract {contract.__name__}")
-    missing = sorted(getattr(loaded, "__abstractmethods__", ()))
-    if missing:
-        return Plugin(kind, name, distribution, None, f"{loaded.__name__} lacks {', '.join(missing)}")
-    return Plugin(kind, name, distribution, loaded)
+    except (Exception, SystemExit) as error:  # a plugin's own fault, whatever it is, must not stop the others
+        return None, told(error)
+    if found := declaration_faults(loaded, CONTRACTS[kind]):
+        return None, " · ".join(found)
+    return loaded, ""
 
 
 @cache
@@ -81,6 +139,17 @@ def offered() -> Mapping[str, tuple[str, ...]]:
     return found
 
 
+@cache
+def effect(name: str) -> type[Effect]:
+    """What declares an effect, also of one inside models. Raises KeyError if unknown, ValueError if broken."""
+    if name in offered() and name not in _points("effects"):
+        return type(load("models", offered()[name][0]).loaded.offers[name])  # type: ignore[union-attr]
+    plugin = load("effects", name)
+    if plugin.loaded is None:
+        raise ValueError(f'effect "{name}" is broken: {plugin.fault}')
+    return plugin.loaded
+
+
 def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:
     """What is wrong with a plugin's name or settings, a sentence each; empty when nothing is."""
     if name not in _points(kind):
@@ -88,7 +157,7 @@ def faults(kind: Kind, name: str, settings: Mapping[str, Any]) -> list[str]:
     plugin = load(kind, name)
     if plugin.loaded is None:
         return [f'{kind[:-1]} "{name}" is broken: {plugin.fault}']
-    fields = _settings(plugin.loaded)
+    fields = settings_of(plugin.loaded)
     found = []
     for key, value in settings.items():
         if key not in fields:
@@ -131,7 +200,8 @@ def build_effects(
     """Effects by name as they go around a model: those that it offers are its own. settings : by the effect's name.
     Raises ValueError for an effect that neither is registered nor has room in the model."""
     told = settings or {}
-    homeless = [name for name in effects if name in offered() and name not in (*model.offers, *_points("effects"))]
+    # offered() loads every model, also those of other distributions: asked last
+    homeless = [name for name in effects if name not in (*model.offers, *_points("effects")) and name in offered()]
     if homeless:
         name = homeless[0]
         raise ValueError(f"the model has no room for {name}; models that offer it: {', '.join(offered()[name])}.")
@@ -141,7 +211,7 @@ def build_effects(
     )
 
 
-def _settings(plugin: type) -> dict[str, Any]:
+def settings_of(plugin: type) -> dict[str, Any]:
     """Names and types of a plugin's settings: the fields of its dataclass."""
     if not dataclasses.is_dataclass(plugin):
         return {}

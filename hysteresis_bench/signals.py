@@ -16,6 +16,13 @@ INDEX = "sample"
 """The unit of a time that is only an index."""
 
 
+def read_only(values: Array) -> Array:
+    """The same numbers, into which nobody can write: a plugin that tries gets the ValueError itself."""
+    view = np.asarray(values).view()
+    view.flags.writeable = False
+    return view
+
+
 @dataclass(frozen=True, eq=False)
 class Signal:
     """An input over time, for one or for a swarm of simulations.
@@ -23,12 +30,16 @@ class Signal:
     time : (samples,) strictly increasing, s; an index where `timed` is False: rate effects do not apply
     input : (samples, 1) shared by the swarm, or (samples, swarm)
     columns : further measured columns by name, (samples,) each, such as temperature
+    All arrays are read-only: the next simulation sees them too.
     """
 
     time: Array
     input: Array
     timed: bool = True
     columns: Mapping[str, Array] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        _close(self, "time", "input")
 
     def with_input(self, values: Array) -> Signal:
         """The same signal with another input, (samples, 1) or (samples, swarm)."""
@@ -42,6 +53,7 @@ class Record:
     time, input, output : (samples,); output is None where only a prediction is wanted
     units : of "time", "input", "output" and of any further column
     history : leading samples that are simulated but not scored
+    All arrays are read-only.
     """
 
     time: Array
@@ -51,6 +63,9 @@ class Record:
     units: Mapping[str, str] = field(default_factory=lambda: UNITLESS)
     columns: Mapping[str, Array] = field(default_factory=dict)
     history: int = 0
+
+    def __post_init__(self) -> None:
+        _close(self, "time", "input", *(["output"] if self.output is not None else []))
 
     @property
     def timed(self) -> bool:
@@ -108,16 +123,26 @@ class Record:
         )
 
 
+def _close(of: Signal | Record, *names: str) -> None:
+    """Make the arrays of these names and the columns read-only."""
+    for name in names:
+        object.__setattr__(of, name, read_only(getattr(of, name)))
+    columns = {name: read_only(column) for name, column in of.columns.items()}
+    object.__setattr__(of, "columns", MappingProxyType(columns))
+
+
 @dataclass(frozen=True, eq=False)
 class Dataset:
     """Records, and which of them are fitted and which are held out (opened once, at the end).
 
     hidden : what a virtual rig hid in its data, by name; empty for measurements
+    notes : what was done to the records when they were read or predicted, a sentence each
     """
 
     records: tuple[Record, ...]
     held_out_names: tuple[str, ...] = ()
     hidden: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
 
     @property
     def fitted(self) -> tuple[Record, ...]:
@@ -142,6 +167,24 @@ class Dataset:
             raise ValueError(f"no record {unknown[0]!r}; there are: {', '.join(self.names)}")
         return replace(self, held_out_names=tuple(held_out))
 
+    def _repr_html_(self) -> str:
+        """For a notebook: a row a record."""
+        import pandas as pd
+
+        rows = [
+            {
+                "record": record.name,
+                "role": "held-out" if record.name in self.held_out_names else "fitted",
+                "samples": record.time.size,
+                "history": record.history,
+                "duration": float(record.time[-1] - record.time[0]),
+                **{name: record.units.get(name, "1") for name in ("time", "input", "output")},
+            }
+            for record in self.records
+        ]
+        html: str = pd.DataFrame(rows).to_html(index=False, float_format="%.4g")
+        return html
+
     def map(self, change: Any) -> Dataset:
         """The data set with every record changed by change(record) -> record."""
         return replace(self, records=tuple(change(record) for record in self.records))
@@ -156,4 +199,4 @@ def joined(*datasets: Dataset) -> Dataset:
         raise ValueError(f"two records are both named {doubled[0]!r}; names must differ")
     hidden = {key: value for dataset in datasets for key, value in dataset.hidden.items()}
     held_out = tuple(name for dataset in datasets for name in dataset.held_out_names)
-    return Dataset(records, held_out, hidden)
+    return Dataset(records, held_out, hidden, tuple(note for dataset in datasets for note in dataset.notes))

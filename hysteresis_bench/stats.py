@@ -16,7 +16,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+
+from hysteresis_bench.arrays import Array
 
 ENOUGH = 14
 """Trials below which no p-value is given."""
@@ -169,8 +171,9 @@ def expected_running_time(to_target: ArrayLike, spent: ArrayLike) -> float:
     return float(np.sum(np.where(np.isfinite(reached), reached, total)) / successes)
 
 
-def ecdf(to_target: ArrayLike, at: ArrayLike) -> NDArray:
+def ecdf(to_target: ArrayLike, at: ArrayLike) -> Array:
     """[6] Share of targets reached after so many evaluations. to_target : any shape, inf where not reached;
     at : (points,) -> (points,) in [0, 1]."""
     reached = np.sort(np.asarray(to_target, dtype=float), axis=None)
-    return np.searchsorted(reached, np.asarray(at, dtype=float), side="right") / max(reached.size, 1)
+    share: Array = np.searchsorted(reached, np.asarray(at, dtype=float), side="right") / max(reached.size, 1)
+    return share

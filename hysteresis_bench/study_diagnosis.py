@@ -1,27 +1,30 @@
-"""The end of a study: one diagnosis in a worker process, kept as files; what was done already is not done again."""
+"""A study from its first trial to its last section: the trials, what follows them, then one diagnosis.
+
+The diagnosis runs in a worker process and is kept as files; what was done already is not done again.
+"""
 
 from __future__ import annotations
 
 import json
 import shutil
 import time
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import pandas as pd
-
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis.figures import fewer
-from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 from hysteresis_bench.signals import Dataset
-from hysteresis_bench.study.closing_files import CLOSING, DONE, RESPONSES, TOLD, read_closing
-from hysteresis_bench.study.pool import run_tickets
+from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
+from hysteresis_bench.study.execution.pool import Pool, Work, at_once
+from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.problems import closing_dataset
-from hysteresis_bench.study.study_file import Study
+from hysteresis_bench.study.reader import Reader
+from hysteresis_bench.study.run import Progress, run_study
+from hysteresis_bench.study.study_file import Study, read_study
 
 LIMIT = 1800.0
 """Seconds after which a diagnosis is stopped."""
@@ -40,37 +43,58 @@ class ClosingTicket:
 
 
 @dataclass(frozen=True)
-class Ended:
-    """What the worker says of itself; what it found is in the files."""
+class DiagnosisEnd:
+    """How the worker ended; what it found is in the files."""
 
     status: str
     reason: str = ""
 
 
-def close_the_loop(study: Study, data: Path, results: Path) -> None:
+def run_with_diagnosis(
+    path: Path | str,
+    *,
+    trials: int | None = None,
+    jobs: int | None = None,
+    out: Path | str | None = None,
+    on_progress: Callable[[Progress], None] = lambda progress: None,
+) -> Path:
+    """Run or continue a study, and the diagnosis that its [closing] asks for; returns its results folder.
+
+    Arguments and errors as of study.run.run_study.
+    """
+    folder = run_study(path, trials=trials, jobs=jobs, out=out, on_progress=on_progress)
+    study, _ = read_study(Path(path))
+    if study.closing:
+        with alone(folder):
+            write_closing(study, Path(path).parent, folder)
+    return folder
+
+
+def write_closing(study: Study, data: Path, results: Path) -> None:
     """Diagnose what the study's [closing] asks for, into the sub-folder closing/ of its results.
 
     data : the folder where relative data files are looked for. A diagnosis that failed is tried again by the next
     run, one that is there is kept as long as the same is asked. A failure ends no study: closing.json tells it.
     """
     asked = asked_for(study)
-    before = read_closing(results)
-    if before and before.finished and before.told["asked"] == asked:
+    before = read_closing(Reader(results))
+    if before and before.finished and before.outcome["asked"] == asked:
         return
     out = results / f"{CLOSING}.part"
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir()
     begun = time.monotonic()
     ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
-    ((_, _, status, reason),) = run_tickets([ticket], run_closing, 1, LIMIT)
-    told = {
+    with Pool(Work(at_once(run_closing), LIMIT), 1) as pool:
+        ((_, _, status, reason),) = pool.run([ticket])
+    outcome = {
         "asked": asked,
         "hidden": hidden_names(closing_dataset(study, data)),
         "status": status,
         "reason": reason,
         "seconds": round(time.monotonic() - begun, 1),
     }
-    (out / TOLD).write_text(json.dumps(told, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    (out / OUTCOME).write_text(json.dumps(outcome, indent=1, allow_nan=False) + "\n", encoding="utf-8")
     shutil.rmtree(results / CLOSING, ignore_errors=True)
     out.rename(results / CLOSING)  # a killed run leaves no half a diagnosis
 
@@ -91,20 +115,18 @@ def hidden_names(dataset: Dataset) -> list[str]:
     return [f"{name} ({value})" if isinstance(value, str) else name for name, value in effects.items()]
 
 
-def run_closing(ticket: ClosingTicket) -> Ended:
-    """Diagnose and write diagnosis.json, model.json, responses.csv and the page of the diagnosis."""
+def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
+    """Diagnose and write diagnosis.json, model.json and responses.csv."""
     study = Study.model_validate_json(ticket.study)
     assert study.closing is not None
     spec, out = study.closing, Path(ticket.out)
     seen = closing_dataset(study, Path(ticket.data))
     blind = Dataset(seen.records, seen.held_out_names)
     try:
-        found = diagnose(blind, spec.model, settings=spec.settings, effects=spec.effects, seed=study.seed, jobs=1)
+        options = DiagnosisOptions(seed=study.seed, jobs=1)
+        asked = Question(spec.model, spec.effects, spec.settings, options=options)
+        found = diagnose(blind, asked)
     except UserError as error:
-        return Ended("raised", " ".join(error.faults))
+        return DiagnosisEnd("raised", " ".join(error.faults))
     write_diagnosis(out, found)
-    held_out = found.responses[found.responses["role"] == "held-out"]
-    parts = [fewer(rows) for _, rows in held_out.groupby("record", sort=False)]
-    pd.concat(parts).to_csv(out / RESPONSES, index=False, float_format="%.7g")
-    write_diagnosis_page(out, found)
-    return Ended(DONE)
+    return DiagnosisEnd(DONE)

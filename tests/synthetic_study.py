@@ -115,11 +115,11 @@ def provenance(budget: int) -> dict:
 
 def identifiability() -> dict:
     names, grid = ["alpha", "a", "k", "M_s", "c"], np.linspace(5, 15, 13)
-    told = {
+    analysis = {
         "names": names, "units": ["1", "°C", "°C", "A/m", "1"], "values": [1e-9, 10.0, 30.0, 2.5e7, 0.5],
         "standard_errors": [None, 0.1, 0.4, 3e7, 0.01], "rank": 4, "determined": 3,
         "singular_values": [9, 5, 3, 1, 0],
         "effective_samples": 40.0, "sentences": ["alpha cannot be told from these records."],
         "profiles": [{"name": "a", "grid": grid.tolist(), "ratio": (4.0 * (grid - 10) ** 2).tolist()}],
     }  # fmt: skip
-    return {PROBLEMS[0]: told, PROBLEMS[1]: {"fault": "there are more parameters than samples"}}
+    return {PROBLEMS[0]: analysis, PROBLEMS[1]: {"fault": "there are more parameters than samples"}}

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Sequence
+from pathlib import Path
 
 from rich.console import Console
+from rich.markup import escape
 
 
 def plain_console() -> Console:
@@ -13,3 +16,14 @@ def plain_console() -> Console:
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = 120
     return console
+
+
+def say_notes(console: Console, notes: Sequence[str]) -> None:
+    """What was done to the data, a line each."""
+    for note in notes:
+        console.print(f"[yellow]note:[/] {escape(note)}", highlight=False, soft_wrap=True)
+
+
+def say_path(console: Console, what: str, path: Path) -> None:
+    """Where something was written, on one line however long the path is."""
+    console.print(f"{what}: {path}", highlight=False, soft_wrap=True)

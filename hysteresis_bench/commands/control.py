@@ -7,6 +7,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.console import say_notes, say_path
+from hysteresis_bench.commands.outputs import check_folder, force_option
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -14,6 +17,7 @@ if TYPE_CHECKING:
 
 existing_file = click.Path(path_type=Path)
 FEED_FORWARD = "feed-forward.csv"
+FILES = ("control.html", "control.csv", "responses.csv")
 
 
 @click.command()
@@ -25,6 +29,7 @@ FEED_FORWARD = "feed-forward.csv"
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@force_option
 def control(
     model: Path,
     rig: str | None,
@@ -34,25 +39,31 @@ def control(
     voltage_limit: float | None,
     out: Path | None,
     seed: int,
+    force: bool,
 ) -> None:
     """Use a fitted MODEL.json: the input that follows a trajectory (--reference), controllers on a rig (--rig)."""
     from rich.console import Console
 
+    from hysteresis_bench import control as control_on_rig
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
+    from hysteresis_bench.report.control.page import print_control, write_control
 
     if rig is None and reference is None:
         raise UserError("control", "give --rig NAME to compare controllers, or --reference CSV for a feed-forward.")
     fitted, console = read_model(model), Console(soft_wrap=False)
     folder = out or Path(f"{model.stem}-control")
-    try:
-        if reference is not None:
+    check_folder(folder, FILES, FILES[0], [model, *([reference] if reference else [])], force)
+    if reference is not None:
+        try:
             _write_feed_forward(fitted, reference, voltage_limit, folder, console)
-        if rig is not None:
-            options = {"rate": rate, "amplitude": amplitude, "seed": seed}
-            _compare(fitted, model.stem, rig, {key: value for key, value in options.items() if value}, folder, console)
-    except ValueError as error:
-        raise UserError(str(model), str(error)) from None
+        except ValueError as error:
+            raise UserError(str(model), str(error)) from None
+    if rig is not None:
+        comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed)
+        page = write_control(folder, comparison, f"{fitted.model} ({model.stem})")
+        print_control(comparison, console)
+        say_path(console, "page", page)
 
 
 def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, folder: Path, console: Console) -> None:
@@ -60,44 +71,26 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     import pandas as pd
 
     from hysteresis_bench.control.feed_forward import feed_forward
-    from hysteresis_bench.control.references import read_trajectory
+    from hysteresis_bench.control.trajectory import follow
+    from hysteresis_bench.data.csv_files import write_table
 
     forward = feed_forward(fitted)
-    time, wanted = read_trajectory(path)
-    voltage, cut = forward.input_for(wanted, np.inf if limit is None else limit)
-    headings = [f"{name} [{fitted.units[name]}]" for name in ("time", "input", "output")]
-    table = pd.DataFrame(dict(zip(headings, (time, voltage, wanted), strict=True)))
-    table["at_limit"] = cut.astype(int)
+    followed = follow(fitted, forward, path, np.inf if limit is None else limit)
+    columns = {"time": followed.time, "input": followed.input, "output": followed.output}
+    table = pd.DataFrame({f"{name} [{fitted.units[name]}]": values for name, values in columns.items()})
+    table["at_limit"] = followed.cut.astype(int)
     folder.mkdir(parents=True, exist_ok=True)
-    table.to_csv(folder / FEED_FORWARD, index=False, float_format="%.12g")
-    if cut.any():
-        first = time[int(np.argmax(cut))]
+    write_table(folder / FEED_FORWARD, table, digits=12)
+    say_notes(console, followed.notes)
+    if followed.cut.any():
+        first = followed.time[int(np.argmax(followed.cut))]
         console.print(
-            f"[yellow]note:[/] {int(cut.sum())} of {cut.size} samples need more than the limit of {limit:g} and are "
-            f"cut, the first at time {first:g}; they are marked in the column at_limit.",
+            f"[yellow]note:[/] {int(followed.cut.sum())} of {followed.cut.size} samples need more than the limit of "
+            f"{limit:g} and are cut, the first at time {first:g}; they are marked in the column at_limit.",
             highlight=False,
         )
     if forward.linear:
         console.print("The static inverse: the linear section's dynamics are left to feedback.", highlight=False)
     if forward.ignored:
-        console.print(f"[yellow]note:[/] not inverted: {', '.join(forward.ignored)}.", highlight=False)
-    console.print(f"feed-forward: {folder / FEED_FORWARD}", highlight=False, soft_wrap=True)
-
-
-def _compare(fitted: FittedModel, name: str, rig: str, options: dict, folder: Path, console: Console) -> None:
-    from hysteresis_bench import registry
-    from hysteresis_bench.control.comparison import compare
-    from hysteresis_bench.errors import UserError
-    from hysteresis_bench.report.control.page import print_control, write_control
-
-    faults = registry.faults("rigs", rig, {})
-    if faults:
-        raise UserError("control", faults)
-    bench = registry.build("rigs", rig)
-    if not hasattr(bench, "plant"):
-        able = [each for each in registry.names("rigs") if hasattr(registry.load("rigs", each).loaded, "plant")]
-        raise UserError("control", f"rig {rig} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
-    comparison = compare(fitted, bench, rig, **options)
-    page = write_control(folder, comparison, f"{fitted.model} ({name})")
-    print_control(comparison, console)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+        say_notes(console, [f"not inverted: {', '.join(forward.ignored)}."])
+    say_path(console, "feed-forward", folder / FEED_FORWARD)

@@ -24,7 +24,7 @@ SHOWN = 8
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
-@click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored.")
+@click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
 @click.option("--settle", is_flag=True, help="Repeat closed loops before scoring.")
 @click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
@@ -37,7 +37,7 @@ def diagnose(
     effects: Sequence[str],
     input_offset: float,
     flip: bool,
-    skip: float | None,
+    skip: float,
     settle: bool,
     accept_terms: bool,
     jobs: int | None,
@@ -47,28 +47,20 @@ def diagnose(
     """Find what the model lacks in DATA.csv ...: the missing effect, the error before and after."""
     from rich.console import Console
 
+    from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
-    from hysteresis_bench.diagnosis.diagnose import diagnose as find
     from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
-    dataset = load(*data, held_out=held_out, skip=skip)
-    found = find(
-        dataset,
-        model,
-        effects=effects,
-        input_offset=input_offset,
-        flip=flip,
-        settle=settle,
-        accept_terms=accept_terms,
-        seed=seed,
-        jobs=jobs,
-    )
+    dataset = load(*data, held_out=held_out)
+    options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms)
+    found = find(dataset, model, effects, options=options)
     console = Console(soft_wrap=False)
     print_diagnosis(found, console)
     path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
-    page = write_diagnosis_page(path.parent, found, data)
+    page = write_diagnosis_page(path.parent)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 import click
 
-from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.commands.console import plain_console, say_notes
+from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.errors import UserError
+
+Value = TypeVar("Value")
 
 
 @click.command()
@@ -20,11 +24,12 @@ from hysteresis_bench.errors import UserError
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
-@click.option("--skip", type=click.FloatRange(min=0), help="Seconds at the start that are not scored.")
+@click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
 @click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring.")
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@force_option
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -39,62 +44,67 @@ def fit(
     held_out: Sequence[str],
     input_offset: float,
     flip: bool,
-    skip: float | None,
+    skip: float,
     settle: bool,
     seed: int,
     optimizer: str | None,
     budget: int | None,
+    force: bool,
     out: Path | None,
 ) -> None:
     """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
+    from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
-    from hysteresis_bench import load
-    from hysteresis_bench.report.fit.folder import print_fit, write_fit
+    from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
+    from hysteresis_bench.report.fit.page import FILE
 
-    dataset = load(*data, held_out=held_out, skip=skip)
-    fitted = fit_model(
-        dataset,
-        model,
-        effects,
-        bounds=_pairs(bounds),
-        fixed=_values(fixed),
-        settle=settle,
+    folder = out or Path(f"{data[0].stem}-fit")
+    check_folder(folder, FILES, FILE, data, force)
+    dataset = load(*data, held_out=held_out)
+    default = FitOptions()
+    options = FitOptions(
+        optimizer=optimizer or default.optimizer,
+        budget=budget or default.budget,
+        seed=seed,
         input_offset=input_offset,
         flip=flip,
-        seed=seed,
-        **({"optimizer": optimizer} if optimizer else {}),
-        **({"budget": budget} if budget else {}),
+        skip=skip,
+        settle=settle,
     )
+    fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
     console = plain_console()
+    say_notes(console, dataset.notes)
     print_fit(fitted, console)
-    page = write_fit(out or Path(f"{data[0].stem}-fit"), fitted, data)
+    page = write_fit(folder, fitted, data)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)
 
 
 def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
     """P=LO:HI ..."""
-    found, faults = {}, []
-    for text in texts:
-        name, _, interval = text.partition("=")
-        low, _, high = interval.partition(":")
-        try:
-            found[name.strip()] = (float(low), float(high))
-        except ValueError:
-            faults.append(f'"{text}" should read PARAMETER=LOW:HIGH, such as a=0.1:10.')
-    if faults:
-        raise UserError("--bounds", faults)
-    return found
+
+    def interval(text: str) -> tuple[float, float]:
+        low, _, high = text.partition(":")
+        return float(low), float(high)
+
+    return _by_name(texts, interval, "--bounds", "PARAMETER=LOW:HIGH, such as a=0.1:10")
 
 
 def _values(texts: Sequence[str]) -> dict[str, float]:
     """P=VALUE ..."""
-    found, faults = {}, []
+    return _by_name(texts, float, "--fix", "PARAMETER=VALUE, such as n=1")
+
+
+def _by_name(texts: Sequence[str], read: Callable[[str], Value], option: str, form: str) -> dict[str, Value]:
+    found: dict[str, Value] = {}
+    faults = []
     for text in texts:
         name, _, value = text.partition("=")
+        if name.strip() in found:
+            faults.append(f'"{name.strip()}" is given twice.')
         try:
-            found[name.strip()] = float(value)
+            found[name.strip()] = read(value)
         except ValueError:
-            faults.append(f'"{text}" should read PARAMETER=VALUE, such as n=1.')
+            faults.append(f'"{text}" should read {form}.')
     if faults:
-        raise UserError("--fix", faults)
+        raise UserError(option, faults)
     return found

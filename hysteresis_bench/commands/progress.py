@@ -10,12 +10,12 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
 if TYPE_CHECKING:
-    from hysteresis_bench.study.run import Progress as Step
+    from hysteresis_bench.study.run import Progress as StudyProgress
 
 
 @contextmanager
-def progress_bar(console: Console) -> Iterator[Callable[[Step], None]]:
-    """Yields the function that a study tells its steps to."""
+def progress_bar(console: Console) -> Iterator[Callable[[StudyProgress], None]]:
+    """Yields what a study calls after every trial."""
     best: dict[str, tuple[float, str]] = {}
     failed = 0
     columns = (
@@ -30,9 +30,9 @@ def progress_bar(console: Console) -> Iterator[Callable[[Step], None]]:
     with Progress(*columns, console=console, speed_estimate_period=300) as bar:
         task = bar.add_task("", total=None)
 
-        def tell(step: Step) -> None:
+        def on_progress(progress: StudyProgress) -> None:
             nonlocal failed
-            outcome = step.outcome
+            outcome = progress.outcome
             if outcome is not None and outcome.fitness is None:
                 failed += 1
             elif outcome is not None and outcome.relative_rms is not None:
@@ -41,8 +41,8 @@ def progress_bar(console: Console) -> Iterator[Callable[[Step], None]]:
             parts = [f"{problem}: {100 * rms:.2f} % {name}" for problem, (rms, name) in sorted(best.items())]
             parts += [f"[red]{failed} failed[/]"] if failed else []
             description = ("best " if best else "") + " · ".join(parts)
-            if step.done == step.total:
+            if progress.done == progress.total:
                 description += " · now what follows the trials"
-            bar.update(task, completed=step.done, total=step.total, description=description)
+            bar.update(task, completed=progress.done, total=progress.total, description=description)
 
-        yield tell
+        yield on_progress

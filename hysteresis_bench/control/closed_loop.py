@@ -9,6 +9,7 @@ import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Plant
 from hysteresis_bench.control.compensation import Compensation, Series, along
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.references import Reference
@@ -20,21 +21,6 @@ class Target(NamedTuple):
     position: Any
     velocity: Any
     acceleration: Any
-
-
-class Plant(Protocol):
-    """A sampled actuator: a state goes in, a new state comes out."""
-
-    def rest(self) -> Any: ...
-
-    def step(self, state: Any, voltage: float) -> Any:
-        """One interval later, the voltage held."""
-
-    def displacement(self, state: Any) -> float:
-        """The truth."""
-
-    def read(self, state: Any, rng: Generator) -> float:
-        """What the sensor says."""
 
 
 class Controller(Protocol):
@@ -91,6 +77,7 @@ def track(
     plant: Plant,
     controller: Controller,
     forward: FeedForward,
+    *,
     reference: Reference,
     limit: float,
     rng: Generator,

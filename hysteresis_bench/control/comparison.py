@@ -4,20 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
+from html import escape
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.closed_loop import Controller, Run, track
+from hysteresis_bench.control.controllers.pi import ProportionalIntegral
+from hysteresis_bench.control.controllers.sliding_mode import SlidingMode
+from hysteresis_bench.control.controllers.tuning import tune_pi, tune_sliding_mode
 from hysteresis_bench.control.feed_forward import FeedForward, feed_forward
 from hysteresis_bench.control.observer import observer
-from hysteresis_bench.control.pi import ProportionalIntegral
 from hysteresis_bench.control.references import published_references
-from hysteresis_bench.control.sliding_mode import SlidingMode
-from hysteresis_bench.control.tuning import tune_pi, tune_sliding_mode
+from hysteresis_bench.control.suitability import check_units, range_words
 from hysteresis_bench.fit.model_file import FittedModel
-from hysteresis_bench.fit.search import generator
+from hysteresis_bench.fit.seeds import generator
 
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours
@@ -55,37 +58,66 @@ class Comparison:
     notes: tuple[str, ...]
     warnings: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        """For a notebook: the RMS tracking error, references by controllers, and the warnings."""
+        table = self.scores.pivot_table(index="reference", columns="controller", values="t_rmse", sort=False)
+        sentences = "".join(f"<p>{escape(warning)}</p>" for warning in self.warnings)
+        return f"<p>RMS tracking error, {self.units['output']}</p>{table.to_html(float_format='%.4g')}{sentences}"
 
-def scores_on_rig(fitted: FittedModel, rig: Any, name: str, seed: int) -> pd.DataFrame:
-    """The scores of `compare`, as a study's stages ask for them."""
-    return compare(fitted, rig, name, seed=seed).scores
+
+def stepped_rig(name: str, settings: Mapping[str, Any] | None = None) -> SteppedRig:
+    """A registered rig that can be run sample by sample. Raises ValueError where it cannot, or where it is none."""
+    rig = registry.build("rigs", name, settings)
+    if isinstance(rig, SteppedRig):
+        return rig
+    loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+    able = [each for each, one in loaded.items() if one and issubclass(one, SteppedRig)]
+    raise ValueError(f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
 
 
 def compare(
-    fitted: FittedModel, rig: Any, name: str, rate: float = RATE, amplitude: float = AMPLITUDE, seed: int = 0
+    fitted: FittedModel,
+    rig: SteppedRig,
+    name: str,
+    *,
+    rate: float = RATE,
+    amplitude: float = AMPLITUDE,
+    seed: int = 0,
 ) -> Comparison:
     """Run every controller that the model allows along every reference, on the rig.
 
-    rig : a rig with a stepwise `plant(rate)` and a `voltage_limit`;  name : of the rig
+    name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
-    Raises ValueError where the model has no inverse, its linear section is unstable, or the sampling is too slow.
+    Raises ValueError where units or ranges do not suit, the model has no inverse, its linear section is unstable, or
+    the sampling is too slow.
     """
     forward = feed_forward(fitted)
+    check_units(fitted, forward, rig, name)
+    told = range_words(fitted, forward, rig.input_limit, amplitude)
     controllers, tuning = _controllers(forward, 1.0 / rate, _model_error(fitted, amplitude))
-    plant, floor = rig.plant(rate), _noise_floor(rig)
+    plant, floor = rig.plant(rate), rig.noise_floor
     scores, responses = [], []
     for reference in published_references(amplitude, rate):
         for label, controller in controllers.items():
             rng = generator(seed, name, reference.name)
-            run = track(plant, controller, forward, reference, rig.voltage_limit, rng, series=label == IN_SERIES)
+            run = track(
+                plant,
+                controller,
+                forward,
+                reference=reference,
+                limit=rig.input_limit,
+                rng=rng,
+                series=label == IN_SERIES,
+            )
             key = {"reference": reference.name, "controller": label}
             floors = {"noise_floor": floor, "delay_floor": reference.delay_floor}
             scores.append(key | run.scores() | floors | {"unit": fitted.units["output"]})
             responses.append(_shown(run).assign(**key))
     table = pd.DataFrame(scores)
-    conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.voltage_limit}
-    return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, _warnings(table, forward))
+    conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
+    warnings = (*told, *_warnings(table, forward, fitted))
+    return Comparison(table, pd.concat(responses), tuning, fitted.units, conditions, NOTES, warnings)
 
 
 def _controllers(
@@ -110,13 +142,8 @@ def _controllers(
 
 
 def _model_error(fitted: FittedModel, amplitude: float) -> float:
-    told = (fitted.error.get("fitted") or {}).get("rmse")
-    return float(told) if told else UNKNOWN_ERROR * amplitude
-
-
-def _noise_floor(rig: Any) -> float:
-    """RMS of what the sensor adds: its noise, and rounding to its resolution."""
-    return float(np.hypot(getattr(rig, "noise", 0.0), getattr(rig, "resolution", 0.0) / np.sqrt(12.0)))
+    rmse = (fitted.error.get("fitted") or {}).get("rmse")
+    return float(rmse) if rmse else UNKNOWN_ERROR * amplitude
 
 
 def _shown(run: Run) -> pd.DataFrame:
@@ -143,16 +170,21 @@ NOTES = (
 )
 
 
-def _warnings(scores: pd.DataFrame, forward: FeedForward) -> tuple[str, ...]:
-    told = [
-        f"{row.controller} on {row.reference}: the voltage limit cut {100 * row.saturated_share:.1f} % of the samples."
-        for row in scores[scores["saturated_share"] > 0].itertuples()
-    ]
-    if forward.ignored:
-        told.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
-    if forward.linear is None:
-        told.append(
-            "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
-            "because the model does not know where the actuator resonates. Fit hammerstein for both."
+def _warnings(scores: pd.DataFrame, forward: FeedForward, fitted: FittedModel) -> list[str]:
+    sentences, cut = [], scores[scores["saturated_share"] > 0]
+    if len(cut):
+        worst = cut.loc[cut["saturated_share"].idxmax()]
+        sentences.append(
+            f"The voltage limit cut samples in {len(cut)} of {len(scores)} runs, at worst "
+            f"{100 * worst['saturated_share']:.1f} % of them ({worst['controller']} on {worst['reference']})."
         )
-    return tuple(told)
+    if fitted.preparation.settle or fitted.preparation.skip:
+        sentences.append("The fit scored no run-in of its records; on the rig every reference begins at rest.")
+    if forward.ignored:
+        sentences.append(f"Effects of the model that are not inverted: {', '.join(forward.ignored)}.")
+    if forward.linear is None:
+        sentences.append(
+            "The model has no linear section: there is nothing for a sliding mode to work on, and the PI is cautious "
+            f"because the model does not know where the actuator resonates. Fit {registry.HAMMERSTEIN} for both."
+        )
+    return sentences

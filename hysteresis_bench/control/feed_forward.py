@@ -16,12 +16,13 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.control.inverse import BoucWenInverse, Point
-from hysteresis_bench.fit.model_file import FittedModel, Preparation
+from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.registry import BOUC_WEN, HAMMERSTEIN
 from hysteresis_bench.signals import Record
 
-AS_IT_IS = Preparation()
 Part = TypeVar("Part")
-INVERTIBLE = ("bouc-wen", "hammerstein")
+INVERTIBLE = (BOUC_WEN, HAMMERSTEIN)
 
 
 @dataclass(frozen=True)
@@ -72,7 +73,7 @@ class FeedForward:
 
     def voltage(self, u: float) -> float:
         """The actuator's input for the model's."""
-        return (-u if self.preparation.flip else u) + self.preparation.input_offset
+        return self.preparation.measured_input(u)
 
     def model_input(self, voltage: float) -> float:
         """The model's input for the actuator's."""
@@ -116,7 +117,7 @@ def feed_forward(fitted: FittedModel) -> FeedForward:
         faults, BoucWenInverse, p["alpha"], p["beta"], p["gamma"], p["d"], float(fitted.settings.get("n", 1.0))
     )
     linear = None
-    if fitted.model == "hammerstein":
+    if fitted.model == HAMMERSTEIN:
         linear = _or_fault(faults, LinearSection, p["b"], p["c_over_m"], p["k_over_m"])
     if hysteresis is None or faults:
         raise ValueError(" ".join(faults))

@@ -32,11 +32,13 @@ class Observer:
 
     def corrected(self, predicted: Array, measured: float) -> Array:
         """The estimate once the reading is known."""
-        return predicted + self.correction * (measured - predicted[0])
+        estimate: Array = predicted + self.correction * (measured - predicted[0])
+        return estimate
 
     def predicted(self, estimate: Array, v: float) -> Array:
         """The estimate one sample later, v held."""
-        return self.transition @ estimate + self.drive * v
+        later: Array = self.transition @ estimate + self.drive * v
+        return later
 
 
 def observer(linear: LinearSection, bandwidth: float, interval: float) -> Observer:

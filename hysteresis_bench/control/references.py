@@ -1,4 +1,4 @@
-"""What the output should do: the six signals of the PEA paper's Table 6, and a user's own from a CSV.
+"""What the output should do: the six signals of the PEA paper's Table 6.
 
 The paper prints neither amplitudes nor durations; ours are below. Sines fade in over FADE_IN and are scored from
 then on, since no controller can start a mass at full speed.
@@ -9,13 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from pathlib import Path
 
 import numpy as np
-import pandas as pd
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.errors import UserError, nearest
 
 FADE_IN = 0.2  # s
 COMPLEX = (10.0, 20.0, 30.0, 40.0, 50.0)  # Hz
@@ -69,34 +66,3 @@ def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]
         made("sine-50-hz", 0.5, sine(50.0), FADE_IN),
         made("complex", 0.5, lambda time: np.mean([sine(f)(time) for f in COMPLEX], axis=0), FADE_IN),
     )
-
-
-def read_trajectory(path: Path) -> tuple[Array, Array]:
-    """Time and wanted output from a CSV with the columns `time` and `output` (or `reference`), units in brackets.
-
-    Raises UserError naming file, row and column.
-    """
-    try:
-        frame = pd.read_csv(path)
-    except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise UserError(str(path), f"cannot be read as CSV: {error}.") from None
-    frame.columns = pd.Index([str(column).split("[")[0].strip().lower() for column in frame.columns])
-    wanted = "reference" if "reference" in frame else "output"
-    missing = [name for name in ("time", wanted) if name not in frame]
-    if missing:
-        raise UserError(str(path), [f'no column "{name}". {nearest(name, frame.columns)}' for name in missing])
-    faults = []
-    for name in ("time", wanted):
-        frame[name] = pd.to_numeric(frame[name], errors="coerce")
-        bad = np.nonzero(~np.isfinite(frame[name].to_numpy(dtype=float)))[0]
-        if bad.size:
-            faults.append(f'row {bad[0] + 2}, column "{name}": not a finite number ({bad.size} such values).')
-    time = frame["time"].to_numpy(dtype=float)
-    if not faults and time.size < 2:
-        faults.append("needs at least 2 samples.")
-    back = np.nonzero(np.diff(time) <= 0)[0]
-    if not faults and back.size:
-        faults.append(f'row {back[0] + 3}, column "time": time must strictly increase.')
-    if faults:
-        raise UserError(str(path), faults)
-    return time, frame[wanted].to_numpy(dtype=float)

@@ -2,20 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.noise import fast_noise
-from hysteresis_bench.diagnosis.search.hypotheses import Bench
-from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.diagnosis.evidence.view import View, views_of
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
 from hysteresis_bench.signals import Dataset, Record
 
-MOST = 4000
+SEARCHED = 4000
 """Samples that the search for effects works on; the final fits use all."""
 
 RESOLVED = 0.04
@@ -25,22 +26,40 @@ FEWEST = 60
 """Scored samples of a record from which a third is worth holding out."""
 
 
-def passes_to_close(
-    model: Model,
-    dataset: Dataset,
-    effects: Sequence[str],
-    bounds: Mapping[str, tuple[float, float]] | None,
-    fixed: Mapping[str, float] | None,
-    seed: int,
-) -> int:
+@dataclass(frozen=True, eq=False)
+class Prepared:
+    """What diagnosis works on.
+
+    dataset : as the model sees it, with its split;  how : the split was chosen, in words
+    views : of the fitted records;  passes : how often a closed loop is repeated before it is scored, 0 where it is not
+    """
+
+    model: Model
+    dataset: Dataset
+    how: str
+    views: tuple[View, ...]
+    passes: int
+
+
+def prepare(dataset: Dataset, question: Question) -> Prepared:
+    """Prepare the input, let closed loops settle, hold a part out. Raises UserError telling every fault at once."""
+    question.check(dataset)
+    model, seen = question.built, dataset.map(question.preparation)
+    passes = passes_to_close(model, seen, question) if question.options.settle else 0
+    seen = seen.map(lambda record: record.settled(passes)) if passes else seen
+    ready, how = with_held_out(seen)
+    return Prepared(model, ready, how, views_of(ready.fitted), passes)
+
+
+def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:
     """How often a closed loop is repeated before it is scored: until the bare model, fitted, closes it."""
     passes = FIRST_REPEATS
     while True:
         records = tuple(record.settled(passes) for record in dataset.fitted)
-        bench = Bench(Stack(model, thinned(records), tuple(effects), bounds, fixed), seed)
-        bare = bench.bare(frozenset({"record-offset"}))
-        system, values = bench.fitted(bare)
-        if passes >= MOST_REPEATS or gap_after(system, records, values, passes) < CLOSED:
+        stack = Stack(model, thinned(views_of(records)), tuple(question.effects), question.bounds, question.fixed)
+        fitter = Fitter(stack, question.options.seed)
+        system, values = fitter.fitted(fitter.bare(frozenset({registry.RECORD_OFFSET})))
+        if passes >= MOST_REPEATS or gap_after(system, records, values, repeats=passes) < CLOSED:
             return passes
         passes *= 2
 
@@ -63,19 +82,18 @@ def with_held_out(dataset: Dataset) -> tuple[Dataset, str]:
     return Dataset((head, tail), (tail.name,), dataset.hidden), words
 
 
-def thinned(records: Sequence[Record]) -> tuple[Record, ...]:
+def thinned(views: Sequence[View]) -> tuple[Record, ...]:
     """Every so manieth sample and all turning points, where there are more samples than a search needs."""
-    stride = sum(record.measured.size for record in records) // MOST
+    stride = sum(view.y.size for view in views) // SEARCHED
     if stride < 2:
-        return tuple(records)
-    return tuple(_thinned(record, stride) for record in records)
+        return tuple(view.record for view in views)
+    return tuple(_thinned(view, stride) for view in views)
 
 
-def _thinned(record: Record, stride: int) -> Record:
-    u = record.input
+def _thinned(view: View, stride: int) -> Record:
+    u = view.record.input
     typical = float(np.median(np.abs(np.diff(u)))) / (float(np.ptp(u)) or 1.0)
     stride = min(stride, max(1, int(RESOLVED / typical))) if typical > 0.0 else stride
-    turns = covariates.turning_points(u, covariates.resolution_of(u, fast_noise(record.time, u)[0]))
-    ends = np.array([0, record.history, u.size - 1])
-    kept = np.unique(np.concatenate([np.arange(0, u.size, stride), turns, ends]))
-    return record.take(kept)
+    ends = np.array([0, view.record.history, u.size - 1])
+    kept = np.unique(np.concatenate([np.arange(0, u.size, stride), view.turns, ends]))
+    return view.record.take(kept)

@@ -5,58 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Literal
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PositiveInt
 
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Rig
-from hysteresis_bench.fit.search import generator
-from hysteresis_bench.signals import Dataset, joined
-from hysteresis_bench.study.study_file import duration
-
-NUISANCE = "record-offset"
-"""What differs from record to record in real life; no claim."""
-
-
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
-
-
-class BenchSpec(_Strict):
-    """One bench: a rig, what is hidden in it, and what the diagnosis gets to see.
-
-    hidden : names that count as right, one entry for each effect that is switched on; "a|b" where either name says
-        it. "of the rig" takes the names from what the rig itself says is hidden
-    vary : the rig's setting that takes the number of the case; seeds alone differ where it is empty
-    fresh : experiments that are neither fitted nor held out, for the error at the end
-    share : cases of this bench for each of the study's trials
-    """
-
-    name: str
-    rig: str
-    settings: dict[str, Any] = {}
-    hidden: list[str] | Literal["of the rig"] = "of the rig"
-    vary: str = ""
-    model: str
-    fitted: list[str] = Field(min_length=1)
-    held_out: list[str] = Field(min_length=1)
-    fresh: list[str] = []
-    options: dict[str, Any] = {}
-    share: PositiveInt = 1
-
-
-class DiagnosisStudy(_Strict):
-    """A checked study of diagnosis."""
-
-    kind: Literal["diagnosis"]
-    title: str
-    seed: int
-    trials: PositiveInt = 1
-    timeout: Annotated[float, BeforeValidator(duration)] = 900.0
-    notes: list[str] = []
-    bench: list[BenchSpec] = Field(min_length=1)
+from hysteresis_bench.diagnosis_study.study_file import BenchSpec, DiagnosisStudy
+from hysteresis_bench.signals import Dataset
+from hysteresis_bench.study.problems import measure
 
 
 @dataclass(frozen=True)
@@ -110,27 +66,30 @@ class Case:
 def run_case(ticket: CaseTicket) -> Case:
     """Measure, diagnose, and compare what was claimed with what is hidden."""
     from hysteresis_bench.diagnosis.diagnose import diagnose
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 
     study = DiagnosisStudy.model_validate_json(ticket.study)
     bench = next(bench for bench in study.bench if bench.name == ticket.bench)
     rig = build_rig(bench, ticket.number)
     key = (study.seed, bench.name, ticket.number)
-    seen = measured(rig, [*bench.fitted, *bench.held_out], *key).split(bench.held_out)
+    seen = measure(rig, [*bench.fitted, *bench.held_out], *key).split(bench.held_out)
     truth = hidden_in(bench, seen)
     begun = time.monotonic()
-    found = diagnose(Dataset(seen.records, seen.held_out_names), bench.model, jobs=1, **bench.options)
+    blind = Dataset(seen.records, seen.held_out_names)
+    found = diagnose(blind, Question(bench.model, options=DiagnosisOptions(jobs=1)))
     seconds = time.monotonic() - begun
     rivals = {
         name: {tie.rival for tie in found.ties if tie.effect == name}
         | {t.effect for t in found.ties if t.rival == name}
         for name in found.effects
     }
-    named, tied, missed, extra = compared(truth, [name for name in found.effects if name != NUISANCE], rivals)
+    claimed = [name for name in found.effects if name != registry.RECORD_OFFSET]
+    named, tied, missed, extra = compared(truth, claimed, rivals)
     noise = _noise(seen, found.floor)
     before, after = (stage.held_out or stage.fitted for stage in (found.before, found.after))
     fresh = None
     if bench.fresh:
-        records = measured(rig, bench.fresh, *key)
+        records = measure(rig, bench.fresh, *key)
         predicted = found.model.predict(records)
         errors = [p.output - r.output for p, r in zip(predicted.records, records.records, strict=True)]  # type: ignore[operator]
         fresh = float(np.sqrt(np.mean(np.concatenate(errors) ** 2))) / noise
@@ -140,7 +99,7 @@ def run_case(ticket: CaseTicket) -> Case:
         ticket.number,
         "done",
         hidden=" ".join(truth),
-        claimed=" ".join(name for name in found.effects if name != NUISANCE),
+        claimed=" ".join(claimed),
         named=" ".join(named),
         tied=" ".join(tied),
         missed=" ".join(missed),
@@ -179,24 +138,19 @@ def compared(
     return named, tied, missed, left
 
 
-def measured(rig: Rig, experiments: Sequence[str], *key: object) -> Dataset:
-    """One record an experiment, each with noise of its own."""
-    return joined(*(rig.measure(experiment, generator(*key, experiment)) for experiment in experiments))
-
-
 def hidden_in(bench: BenchSpec, dataset: Dataset) -> tuple[str, ...]:
     """What a right diagnosis names."""
-    if bench.hidden == "of the rig":
+    if bench.hidden is None:
         return tuple(name for name in dataset.hidden if name != "noise")
     return tuple(bench.hidden)
 
 
 def _noise(dataset: Dataset, estimate: float) -> float:
     """RMS of the noise: as the rig tells, or as it is estimated where noise also enters through the input."""
-    told = dataset.hidden.get("noise")
-    if isinstance(told, Mapping):
-        told = None if told.get("input") else told.get("output")
-    return float(told) if isinstance(told, (int, float)) and told > 0 else estimate
+    known = dataset.hidden.get("noise")
+    if isinstance(known, Mapping):
+        known = None if known.get("input") else known.get("output")
+    return float(known) if isinstance(known, (int, float)) and known > 0 else estimate
 
 
 def build_rig(bench: BenchSpec, number: int) -> Rig:

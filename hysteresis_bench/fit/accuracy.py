@@ -1,15 +1,16 @@
-"""How far a simulation is from the measurement: RMSE, relative RMS, largest error."""
+"""A simulation beside the measurement: RMSE, relative RMS, largest error, and the table sample by sample."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 
 import numpy as np
+import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.signals import Record
+from hysteresis_bench.signals import Dataset, Record
 
 
 @dataclass(frozen=True)
@@ -38,3 +39,26 @@ def accuracy(system: System, records: Sequence[Record], values: Array) -> Accura
     rmse = float(np.sqrt(squares / samples))
     scale = scale or 1.0
     return Accuracy(rmse, rmse / scale, largest / scale)
+
+
+def simulated(system: System, records: Sequence[Record], values: Array) -> list[Array]:
+    """The response to every record, (scored samples,) each; values : (dimension,), in units."""
+    return [system.respond(record, values.reshape(-1, 1))[record.scored, 0] for record in records]
+
+
+def response_table(dataset: Dataset, responses: Mapping[str, Sequence[Array]]) -> pd.DataFrame:
+    """record, role (fitted or held-out), time, input, output, and a column a response; the scored samples.
+
+    responses : by column's name, (scored samples,) for every record of the data set
+    """
+    parts = []
+    for index, record in enumerate(dataset.records):
+        columns = {
+            "record": record.name,
+            "role": "held-out" if record.name in dataset.held_out_names else "fitted",
+            "time": record.time[record.scored],
+            "input": record.input[record.scored],
+            "output": record.measured,
+        }
+        parts.append(pd.DataFrame({**columns, **{name: each[index] for name, each in responses.items()}}))
+    return pd.concat(parts, ignore_index=True) if parts else pd.DataFrame()

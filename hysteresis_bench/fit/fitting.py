@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
-from importlib.metadata import version
+from dataclasses import asdict, dataclass, field, replace
+from html import escape
 from typing import Any
 
 import numpy as np
@@ -14,27 +13,49 @@ import pandas as pd
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.contracts import Optimizer
 from hysteresis_bench.errors import UserError, nearest
-from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.identifiability import Identifiability, analyse
+from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
+from hysteresis_bench.fit.checks.asked import asked_faults
+from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
+from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.loss import LOSSES
-from hysteresis_bench.fit.model_file import Estimate, FittedModel, Preparation
+from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.search import generator, polish, search, shared_start
+from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, Record
 
-DEFAULT_OPTIMIZER = "pso-constriction"
-"""What `studies/sma.toml` shows for a log-scaled box: successful in 30 of 30 trials, as the best ones are, and of
-these the cheapest by far (0.1 s a trial); the polish does the rest."""
-DEFAULT_BUDGET = 15050
 AGREE = 0.01
 """Two searches agree when neither's RMSE is more than 1 % above the other's, and their simulated outputs
 differ by less than 1 % of the measured range (RMS)."""
-AT_BOUND = 1e-3
-"""A parameter within this fraction of its (scaled) box from an edge is said to lie at its bound."""
+
+
+@dataclass(frozen=True)
+class FitOptions:
+    """How a fit is made: two searches from different starts, on records that are prepared.
+
+    optimizer, optimizer_settings : a registered optimizer;  budget : evaluations of each search
+    seed : of both searches
+    input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    skip : seconds at the start of every record that are simulated and not scored
+    settle : closed loops are repeated until they close before they are scored
+    """
+
+    optimizer: str = registry.SEARCH
+    optimizer_settings: Mapping[str, Any] = field(default_factory=dict)
+    budget: int = 15050
+    seed: int = 0
+    input_offset: float = 0.0
+    flip: bool = False
+    skip: float = 0.0
+    settle: bool = False
+
+
+DEFAULT = FitOptions()
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,6 +81,30 @@ class Fit:
     warnings: tuple[str, ...]
     notes: tuple[str, ...]
 
+    def _repr_html_(self) -> str:
+        """For a notebook: the errors, the parameters, the sentences."""
+        tables = (table.to_html(index=False, float_format="%.4g") for table in (self.records, self.parameters))
+        name = " + ".join((self.model.model, *self.model.effects))
+        return "".join((f"<p>{escape(name)}</p>", *tables, *map(_paragraph, (self.agreement, *self.warnings))))
+
+
+@dataclass(frozen=True, eq=False)
+class _Searched:
+    """dataset : as the problem sees it;  found : (dimension,) of each search, polished, in units;  losses : of them
+    repeats : passes of every loop before it is scored, 0 where it is not;  gap : between the last two of them"""
+
+    problem: Problem
+    dataset: Dataset
+    found: tuple[Array, ...]
+    losses: tuple[float, ...]
+    repeats: int
+    gap: float
+
+    @property
+    def values(self) -> Array:
+        """The better one."""
+        return self.found[int(np.argmin(self.losses))]
+
 
 def fit_records(
     dataset: Dataset,
@@ -67,70 +112,66 @@ def fit_records(
     effects: Sequence[str] = (),
     *,
     settings: Mapping[str, Any] | None = None,
-    optimizer: str = DEFAULT_OPTIMIZER,
-    optimizer_settings: Mapping[str, Any] | None = None,
     bounds: Mapping[str, tuple[float, float]] | None = None,
     fixed: Mapping[str, float] | None = None,
-    budget: int = DEFAULT_BUDGET,
-    seed: int = 0,
-    settle: bool = False,
-    input_offset: float = 0.0,
-    flip: bool = False,
+    options: FitOptions = DEFAULT,
 ) -> Fit:
     """Fit a registered model, with effects around it, to the fitted records of a data set.
 
-    bounds : replaces parts of the box that the model derives from the data
-    settle : closed loops are repeated until they close before they are scored
-    input_offset, flip : the model sees (input - input_offset), times -1 with flip
-    Raises UserError telling every fault at once.
+    effects : by name, innermost first;  settings : of the model
+    bounds : by parameter's name, in units, replaces parts of the box that the model derives from the data
+    fixed : parameters that are known, by name, in units
+    Raises UserError telling what is wrong with the names, the data, the box or the parameters.
     """
-    preparation = Preparation(input_offset, flip)
+    settings = settings or {}
+    system = _system(model, settings, effects, fixed or {}, options)
+    preparation = Preparation(options.input_offset, options.flip, options.skip)
+    if faults := preparation.faults(dataset.records):
+        raise UserError("fit", faults)
     seen = dataset.map(preparation)
-    system = _system(model, settings or {}, effects, fixed or {}, optimizer, optimizer_settings or {})
-    _check(system, seen, settle)
+    _check(system, seen, options.settle)
     space = _space(system, seen.fitted, bounds or {})
-    built = registry.build("optimizers", optimizer, optimizer_settings)
-    repeats = FIRST_REPEATS
-    while True:
-        ready = seen.map(lambda record, n=repeats: record.settled(n)) if settle else seen
-        problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
-        found = [polish(problem, _search(problem, built, budget, seed, run)) for run in (0, 1)]
-        losses = [float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found]
-        values = found[int(np.argmin(losses))]
-        gap = gap_after(system, ready.records, values, repeats) if settle else 0.0
-        if gap < CLOSED or repeats >= MOST_REPEATS:
-            break
-        repeats *= 2
+    best = _searched(system, space, seen, options)
+    problem, values = best.problem, best.values
     try:
         analysis = analyse(problem, values)
     except ValueError as error:
         raise UserError("fit", f"{error}.") from None
-    model_settings = {"settings": settings or {}, "preparation": preparation}
-    fitted = fitted_model(problem, values, analysis.standard_errors, dataset, ready, model, **model_settings)
-    parameters = _parameter_table(problem, fitted)
-    records, responses = _record_tables(system, values, dataset, ready)
-    agrees, agreement = _agreement(problem, found, losses)
-    warnings = (
-        *system.model.advice(seen.fitted),
-        *not_closed(gap, repeats),
-        *_edges(parameters),
-        *analysis.sentences(),
+    fitted = fitted_model(
+        problem,
+        values,
+        analysis.standard_errors,
+        dataset=best.dataset,
+        model=model,
+        settings=settings,
+        preparation=replace(preparation, settle=best.repeats),
     )
-    notes = _notes(space, optimizer, budget, seed, repeats if settle else 0)
-    return Fit(fitted, records, responses, parameters, analysis, agreement, agrees, warnings, notes)
+    parameters = _parameter_table(problem, fitted)
+    agrees, agreement = _agreement(problem, best.found, best.losses)
+    responses = simulated(system, best.dataset.records, values)
+    return Fit(
+        fitted,
+        _error_table(system, values, best.dataset),
+        response_table(dataset.map(preparation.skipped), {"simulated": responses}),  # the measured input
+        parameters,
+        analysis,
+        agreement,
+        agrees,
+        (
+            *system.model.advice(seen.fitted),
+            *not_closed(best.gap, best.repeats),
+            *_edges(parameters),
+            *analysis.sentences(),
+        ),
+        (*dataset.notes, *_notes(space, options, best.repeats)),
+    )
 
 
 def _system(
-    model: str,
-    settings: Mapping[str, Any],
-    effects: Sequence[str],
-    fixed: Mapping[str, float],
-    optimizer: str,
-    optimizer_settings: Mapping[str, Any],
+    model: str, settings: Mapping[str, Any], effects: Sequence[str], fixed: Mapping[str, float], options: FitOptions
 ) -> System:
-    faults = registry.faults("models", model, settings) + registry.faults("optimizers", optimizer, optimizer_settings)
-    for effect in effects:
-        faults += registry.effect_faults(effect, model)
+    faults = asked_faults(model, settings, effects)
+    faults += registry.faults("optimizers", options.optimizer, options.optimizer_settings)
     if faults:
         raise UserError("fit", faults)
     built = registry.build("models", model, settings)
@@ -140,6 +181,8 @@ def _system(
     known = replace(system, fixed=fixed)
     if unknown or known.refusals():
         raise UserError("fit", unknown + [f"fixed {reason}" for reason in known.refusals()])
+    if not known.parameters:
+        raise UserError("fit", "every parameter is fixed; leave one free to be found.")
     return known
 
 
@@ -155,7 +198,7 @@ def _check(system: System, dataset: Dataset, settle: bool) -> None:
     samples = sum(record.measured.size for record in dataset.fitted)
     if samples <= len(system.parameters):
         faults.append(f"{samples} samples cannot determine {len(system.parameters)} parameters.")
-    if faults:
+    if faults := faults or broken_promises(system, dataset.fitted):
         raise UserError("fit", faults)
 
 
@@ -174,9 +217,27 @@ def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple
     return Space(tuple(parameters))
 
 
-def _search(problem: Problem, optimizer: Optimizer, budget: int, seed: int, run: int) -> Array:
-    start = shared_start(problem.space.dimension, seed, "fit", run)
-    return search(problem, optimizer, budget, start, generator(seed, "fit", run)).values
+def _searched(system: System, space: Space, dataset: Dataset, options: FitOptions) -> _Searched:
+    """Both searches, each polished; with `settle` the loops' passes are doubled until the fitted model closes them."""
+    optimizer = registry.build("optimizers", options.optimizer, options.optimizer_settings)
+    repeats = FIRST_REPEATS
+    while True:
+        ready = dataset.map(lambda record, n=repeats: record.settled(n)) if options.settle else dataset
+        problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
+        found = []
+        for run in (0, 1):
+            key = (options.seed, "fit", run)
+            start = shared_start(space.dimension, *key)
+            best = search(problem, optimizer, budget=options.budget, start=start, rng=generator(*key))
+            found.append(polish(problem, best.values))
+        losses = tuple(float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found)
+        searched = _Searched(problem, ready, tuple(found), losses, repeats, 0.0)
+        if not options.settle:
+            return replace(searched, repeats=0)
+        gap = gap_after(system, ready.records, searched.values, repeats=repeats)
+        if gap < CLOSED or repeats >= MOST_REPEATS:
+            return replace(searched, gap=gap)
+        repeats *= 2
 
 
 def _agreement(problem: Problem, found: Sequence[Array], losses: Sequence[float]) -> tuple[bool, str]:
@@ -207,74 +268,33 @@ def _edges(parameters: pd.DataFrame) -> list[str]:
     ]
 
 
-def _notes(space: Space, optimizer: str, budget: int, seed: int, repeats: int) -> tuple[str, ...]:
+def _notes(space: Space, options: FitOptions, repeats: int) -> tuple[str, ...]:
     box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in space.parameters)
     settled = f" Every loop was passed {repeats} times before it was scored." if repeats else ""
     return (
-        f"Two searches by {optimizer} from other starts, {budget} evaluations each, seed {seed}, each finished by a "
-        f"local least-squares polish.{settled}",
+        f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each, "
+        f"seed {options.seed}, each finished by a local least-squares polish.{settled}",
         f"Search box: {box}.",
         "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation.",
     )
 
 
-def _record_tables(
-    system: System, values: Array, dataset: Dataset, ready: Dataset
-) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Errors and responses a record. dataset : as measured; ready : the same records as the model sees them."""
-    records, responses = [], []
-    for record, seen in zip(dataset.records, ready.records, strict=True):
-        named = {"record": record.name, "role": "held-out" if record.name in dataset.held_out_names else "fitted"}
-        records.append({**named, **accuracy(system, [seen], values).as_dict()})
-        columns = {
-            "time": record.time[record.scored],
-            "input": record.input[record.scored],
-            "output": record.measured,
-            "simulated": system.respond(seen, values[:, None])[seen.scored, 0],
-        }
-        responses.append(pd.DataFrame({**named, **columns}))
-    return pd.DataFrame(records), pd.concat(responses, ignore_index=True)
+def _error_table(system: System, values: Array, dataset: Dataset) -> pd.DataFrame:
+    rows = []
+    for record in dataset.records:
+        role = "held-out" if record.name in dataset.held_out_names else "fitted"
+        rows.append({"record": record.name, "role": role, **accuracy(system, [record], values).as_dict()})
+    return pd.DataFrame(rows)
 
 
 def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
-    points = problem.space.to_unit(fitted.values[:, None])[:, 0]
+    edges = at_bound(problem.space, fitted.values)
     rows = [
-        {"name": name, **asdict(estimate), "at_bound": bool(point < AT_BOUND or point > 1 - AT_BOUND)}
-        for (name, estimate), point in zip(fitted.parameters.items(), points, strict=True)
+        {"name": name, **asdict(estimate), "at_bound": bool(edge)}
+        for (name, estimate), edge in zip(fitted.parameters.items(), edges, strict=True)
     ]
     return pd.DataFrame(rows)
 
 
-def fitted_model(
-    problem: Problem, values: Array, errors: Array, dataset: Dataset, ready: Dataset, model: str, **more: Any
-) -> FittedModel:
-    """The model of a problem at `values` (dimension,), ready to predict and to be written.
-
-    errors : (dimension,) standard errors, inf where the data cannot tell
-    dataset : as measured;  ready : the same records as the model sees them
-    """
-    system, units = problem.system, dataset.units
-    offsets = np.array([[float(o[0]) for o in system.offsets(r, values[:, None])] for r in ready.fitted])
-    remembered = {
-        name: effect.remembered(list(offsets[:, index])) for index, (name, effect) in enumerate(system.effects)
-    }
-    error = {"fitted": accuracy(system, ready.fitted, values).as_dict()}
-    if ready.held_out:
-        error["held_out"] = accuracy(system, ready.held_out, values).as_dict()
-    return FittedModel(
-        model,
-        effects=tuple(remembered),
-        effect_settings={name: asdict(effect) for name, effect in remembered.items()},  # type: ignore[call-overload]
-        units=units,
-        parameters={
-            parameter.name: Estimate(
-                float(value), float(error) if np.isfinite(error) else None, parameter.unit_in(units)
-            )
-            for parameter, value, error in zip(problem.space.parameters, values, errors, strict=True)
-        },
-        fixed=system.fixed,
-        data={"fitted": [r.name for r in dataset.fitted], "held_out": [r.name for r in dataset.held_out]},
-        error=error,
-        created_by={"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
-        **more,
-    )
+def _paragraph(text: str) -> str:
+    return f"<p>{escape(text)}</p>"

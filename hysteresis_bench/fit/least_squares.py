@@ -1,8 +1,8 @@
-"""Warm-started least squares of a system, many at once: starts, or folds, are chains in one swarm.
+"""Least squares of a problem: the polish of one point, and many warm starts, or folds, at once.
 
-Levenberg-Marquardt [1] in the unit box. An iteration is two swarms a record: every chain's point and its
-forward differences, then every chain's step at three dampings, of which the best is taken. Ours: a parameter
-at its bound whose descent leads outside is held there; steps are cut at the box.
+The latter are chains in one swarm: Levenberg-Marquardt [1] in the unit box. An iteration is two swarms a record:
+every chain's point and its forward differences, then every chain's step at three dampings, of which the best is
+taken. Ours: a parameter at its bound whose descent leads outside is held there; steps are cut at the box.
 
 [1] D. W. Marquardt, J. Soc. Ind. Appl. Math. 11 (1963) 431.
 """
@@ -15,6 +15,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.objective import CEILING, Problem
+from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 
 STEP = 1e-6
@@ -28,6 +29,9 @@ HOPELESS = 1e8
 
 CONVERGED = 1e-6
 """Relative fall of the sum of squares by which an iteration no longer counts."""
+
+AT_BOUND = 1e-3
+"""A parameter within this fraction of its (scaled) box from an edge is said to lie at its bound."""
 
 
 def errors(problem: Problem, points: Array) -> Array:
@@ -48,12 +52,38 @@ def split(joined: Array, records: Sequence[Record]) -> list[Array]:
     return np.split(joined, np.cumsum([record.measured.size for record in records])[:-1])
 
 
+def polish(problem: Problem, values: Array) -> Array:
+    """The nearest local least-squares optimum inside the box; values and result (dimension,), in units.
+
+    Trust-region reflective (scipy) in the unit box; never worse than where it began.
+    """
+    from scipy.optimize import least_squares
+
+    inside = np.clip(problem.space.to_unit(values.reshape(-1, 1))[:, 0], 1e-9, 1.0 - 1e-9)
+    scale = problem.scale  # residuals of order one: the tolerances are then relative
+
+    def residuals(point: Array) -> Array:
+        return problem.residuals(np.clip(point, 0.0, 1.0)) / scale
+
+    found = least_squares(residuals, inside, bounds=(0.0, 1.0), x_scale="jac", xtol=1e-12, ftol=1e-12, gtol=1e-12)
+    candidates = [np.clip(found.x, 0.0, 1.0)[:, None], problem.space.to_unit(values.reshape(-1, 1))]
+    losses = problem.losses(np.clip(np.hstack(candidates), 0.0, 1.0))
+    best = candidates[0] if losses[0] < losses[1] else candidates[1]
+    return problem.space.from_unit(best)[:, 0]
+
+
 def point_of(problem: Problem, values: Mapping[str, float]) -> Array:
     """(dimension,) in the unit box, from values in units by parameter's name; cut at the box."""
     column = np.array([[values[name]] for name in problem.space.names])
     low = np.array([[parameter.lower] for parameter in problem.space.parameters])
     high = np.array([[parameter.upper] for parameter in problem.space.parameters])
     return np.clip(problem.space.to_unit(np.clip(column, low, high)), 0.0, 1.0)[:, 0]
+
+
+def at_bound(space: Space, values: Array) -> Array:
+    """Which parameters lie at an edge of their box, (dimension,) of bool; values : (dimension,), in units."""
+    point = space.to_unit(values.reshape(-1, 1))[:, 0]
+    return (point < AT_BOUND) | (point > 1.0 - AT_BOUND)
 
 
 def values_of(problem: Problem, point: Array) -> dict[str, float]:
@@ -73,7 +103,9 @@ def jacobian(problem: Problem, points: Array) -> tuple[Array, Array]:
     return swarm[:, :, 0], (swarm[:, :, 1:] - swarm[:, :, :1]) / steps.T
 
 
-def descend(problem: Problem, starts: Array, weights: Array | None = None, iterations: int = 30) -> tuple[Array, Array]:
+def descend(
+    problem: Problem, starts: Array, weights: Array | None = None, *, iterations: int = 30
+) -> tuple[Array, Array]:
     """Follow every chain downhill -> its point (dimension, chains) and its sum of squares (chains,).
 
     starts : (dimension, chains) in the unit box
@@ -89,9 +121,9 @@ def descend(problem: Problem, starts: Array, weights: Array | None = None, itera
             break
         own = None if weights is None else weights[:, active]
         steps = _steps(*_normal(problem, points[:, active], own), points[:, active], damping[active])
-        trials = np.clip(points[:, active, None] + steps, 0.0, 1.0)
+        tried = np.clip(points[:, active, None] + steps, 0.0, 1.0)
         tripled = None if own is None else np.repeat(own, DAMPINGS.size, axis=1)
-        found = _squares(errors(problem, trials.reshape(dimension, -1)), tripled).reshape(-1, DAMPINGS.size)
+        found = _squares(errors(problem, tried.reshape(dimension, -1)), tripled).reshape(-1, DAMPINGS.size)
         best = np.argmin(found, axis=1)
         rows = np.arange(active.size)
         least, before = found[rows, best], squares[active]
@@ -99,7 +131,7 @@ def descend(problem: Problem, starts: Array, weights: Array | None = None, itera
         damping[active] *= np.where(better, 0.3 * DAMPINGS[best], 1e3)
         damping[active] = np.maximum(damping[active], 1e-12)
         moved = active[better]
-        points[:, moved], squares[moved] = trials[:, rows[better], best[better]], least[better]
+        points[:, moved], squares[moved] = tried[:, rows[better], best[better]], least[better]
         stalled = better & (before - least <= CONVERGED * before)
         active = active[~stalled & (damping[active] < HOPELESS)]
     return points, squares
@@ -107,8 +139,10 @@ def descend(problem: Problem, starts: Array, weights: Array | None = None, itera
 
 def _squares(residuals: Array, weights: Array | None) -> Array:
     if weights is None:
-        return np.einsum("ij,ij->j", residuals, residuals)
-    return np.einsum("ij,ij,ij->j", residuals, residuals, weights)
+        squares: Array = np.einsum("ij,ij->j", residuals, residuals)
+    else:
+        squares = np.einsum("ij,ij,ij->j", residuals, residuals, weights)
+    return squares
 
 
 def _normal(problem: Problem, points: Array, weights: Array | None) -> tuple[Array, Array]:

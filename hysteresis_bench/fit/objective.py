@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from hysteresis_bench import contracts
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.fit.loss import Loss
@@ -87,7 +88,8 @@ class Problem:
         values = self.space.from_unit(point[:, None])
         parts = [self.system.respond(record, values)[record.scored, 0] - record.measured for record in self.records]
         limit = CEILING * self.scale
-        return np.clip(np.nan_to_num(np.concatenate(parts), nan=limit), -limit, limit)
+        residuals: Array = np.clip(np.nan_to_num(np.concatenate(parts), nan=limit), -limit, limit)
+        return residuals
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +112,7 @@ class Trace:
 
 
 class Objective:
-    """A problem on a meter; contracts.Objective says what an optimizer may rely on."""
+    """A problem on a meter; contracts.Objective says what an optimizer may rely on, `shown` what it gets."""
 
     def __init__(self, problem: Problem, budget: int) -> None:
         self._problem = problem
@@ -176,3 +178,35 @@ class Objective:
             )
         self.best = float(running[-1])
         self.evaluations += losses.size
+
+    def shown(self) -> contracts.Objective:
+        """What an optimizer gets: it can ask and read, and no attribute of it leads to the meter or the problem."""
+        meter = self
+
+        class Metered:
+            """contracts.Objective. A class of its own for every search: what is done to it changes no other."""
+
+            __slots__ = ()
+
+            @property
+            def dimension(self) -> int:
+                return meter.dimension
+
+            @property
+            def budget(self) -> int:
+                return meter.budget
+
+            @property
+            def evaluations(self) -> int:
+                return meter.evaluations
+
+            def __call__(self, point: Array) -> float:
+                return meter(point)
+
+            def many(self, points: Array) -> Array:
+                return meter.many(points)
+
+            def residuals(self, point: Array) -> Array:
+                return meter.residuals(point)
+
+        return Metered()

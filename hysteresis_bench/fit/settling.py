@@ -23,11 +23,16 @@ def open_loops(records: Sequence[Record]) -> list[str]:
         f"record {record.name} is not a closed loop: its input begins at {record.input[0]:g} and ends at "
         f"{record.input[-1]:g}. Leave --settle out, or cut the record to whole periods."
         for record in records
-        if abs(record.input[-1] - record.input[0]) > 2 * float(np.max(np.abs(np.diff(record.input))))
+        if not is_closed(record)
     ]
 
 
-def gap_after(system: System, records: Sequence[Record], values: Array, repeats: int) -> float:
+def is_closed(record: Record) -> bool:
+    """Whether the input ends where it began, to within two of its steps."""
+    return bool(abs(record.input[-1] - record.input[0]) <= 2 * float(np.max(np.abs(np.diff(record.input)))))
+
+
+def gap_after(system: System, records: Sequence[Record], values: Array, *, repeats: int) -> float:
     """How far the last two passes of the worst loop differ, as a fraction of the range of its output.
 
     values : (dimension,), in units;  records : preceded by `repeats` of themselves

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.data_files import read_data
+from hysteresis_bench.contracts import Rig
+from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.search import generator
+from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.seeds import generator
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, joined
 from hysteresis_bench.study.study_file import ProblemSpec, Study
@@ -32,7 +35,7 @@ class Built:
 def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
     """folder : where relative data files are looked for. Raises UserError for what the data make impossible."""
     dataset = dataset_of(spec, seed, folder)
-    system = build_system(spec.model, spec.settings, spec.effects, spec.fixed)
+    system = build_system(spec.model, spec.settings, effects=spec.effects, fixed=spec.fixed)
     faults = inapplicable(system, dataset) + [f"fixed {reason}" for reason in system.refusals()]
     boxes = system.box(dataset.fitted) if spec.box == "data" else system.parameters
     parameters, more = boxed(boxes, spec)
@@ -43,10 +46,9 @@ def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
 
 def dataset_of(spec: ProblemSpec, seed: int, folder: Path) -> Dataset:
     """What is fitted and what is held out, as the problem prepares it."""
-    dataset = measured(spec, seed) if spec.rig else _read(spec, folder)
+    dataset = _of_rig(spec, seed) if spec.rig else _read(spec, folder)
     if spec.skip is not None:
-        skip = spec.skip
-        dataset = dataset.map(lambda record: record.skip(skip))
+        dataset = dataset.map(Preparation(skip=spec.skip).skipped)
     if spec.settle:
         dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
     return dataset
@@ -64,7 +66,11 @@ def closing_dataset(study: Study, folder: Path) -> Dataset:
 
 
 def build_system(
-    model: str, settings: dict | None = None, effects: Sequence[str] = (), fixed: dict[str, float] | None = None
+    model: str,
+    settings: Mapping[str, Any] | None = None,
+    *,
+    effects: Sequence[str] = (),
+    fixed: Mapping[str, float] | None = None,
 ) -> System:
     """A registered model with registered effects around it, innermost first."""
     built = registry.build("models", model, settings)
@@ -89,14 +95,16 @@ def boxed(boxes: Sequence[Parameter], spec: ProblemSpec) -> tuple[tuple[Paramete
     return tuple(parameters), faults
 
 
-def measured(spec: ProblemSpec, seed: int) -> Dataset:
-    """The rig's experiments; what is measured depends on the seed, the rig and the experiment alone."""
+def measure(rig: Rig, experiments: Sequence[str], *key: object) -> Dataset:
+    """Experiments on a rig; the random numbers of each depend on the key and on its name alone."""
+    return joined(*(rig.measure(name, generator(*key, name)) for name in experiments))
+
+
+def _of_rig(spec: ProblemSpec, seed: int) -> Dataset:
     assert spec.rig is not None
     rig = registry.build("rigs", spec.rig, spec.rig_settings)
-    experiments = [*spec.fitted, *spec.held_out]
-    datasets = [rig.measure(name, generator(seed, spec.rig, name)) for name in experiments]
-    held_out = [name for dataset in datasets[len(spec.fitted) :] for name in dataset.names]
-    return joined(*datasets).split(held_out)
+    fitted, held_out = (measure(rig, names, seed, spec.rig) for names in (spec.fitted, spec.held_out))
+    return joined(fitted, held_out).split(held_out.names)
 
 
 def _read(spec: ProblemSpec, folder: Path) -> Dataset:

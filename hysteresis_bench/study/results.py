@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -13,15 +12,30 @@ import pandas as pd
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.study.closing_files import Closing, read_closing
-from hysteresis_bench.study.store import Store
-from hysteresis_bench.study.study_file import Study, check_study
+from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
+from hysteresis_bench.study.origin import mixed
+from hysteresis_bench.study.reader import Reader
+from hysteresis_bench.study.store import COLUMNS, DAMAGED, FILE, Store
+from hysteresis_bench.study.study_file import Study, read_study
 
 STUDY, PUBLISHED, PROVENANCE = "study.toml", "published.toml", "provenance.json"
 TRIALS, SUMMARY, RESPONSES, REPORT = "trials.csv", "summary.csv", "responses.csv", "report.html"
 IDENTIFIABILITY, STAGES = "identifiability.json", "stages.csv"
 
-STATUSES = ("done", "finished-early", "raised", "timed-out", "crashed", "out-of-memory")
+RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
+STAGE_COLUMNS = ("stage", "quantity", "name", "value")
+
+STATUSES = (
+    "done",
+    "finished-early",
+    "no-finite-loss",
+    "raised",
+    "timed-out",
+    "crashed",
+    "out-of-memory",
+    "killed",
+    "not-started",
+)
 FINISHED = ("done", "finished-early")
 """Statuses of a trial that has a result."""
 
@@ -40,6 +54,8 @@ class Results:
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
+    mixed : a sentence for each thing in which trials differ that should not: package versions, processors
+    damages : sentences on what could not be read
     closing : the diagnosis at the end; None where the study asks for none, or none was tried
     """
 
@@ -53,33 +69,63 @@ class Results:
     identifiability: Mapping[str, Any]
     stages: pd.DataFrame
     closing: Closing | None = None
+    damages: tuple[str, ...] = ()
+    mixed: tuple[str, ...] = ()
+
+    def _repr_html_(self) -> str:
+        """For a notebook: by problem and optimizer, the trials, how many have a result, and the median error."""
+        rows = self.trials.assign(finished=self.trials["status"].isin(FINISHED))
+        table = rows.groupby(["problem", "optimizer"], sort=False).agg(
+            trials=("trial", "size"), finished=("finished", "sum"), median_relative_rms=("relative_rms", "median")
+        )
+        return f"<p>{escape(self.study.title)}</p>{table.to_html(float_format='%.4g')}"
 
 
 def read_results(folder: Path) -> Results:
-    """Raises UserError where the folder holds no study."""
+    """What can be read of a results folder; what cannot is named in `damages`.
+
+    Where trials.sqlite is not kept, the trials come from trials.csv, without their traces.
+    Raises UserError where the folder holds no study, or neither of the two can be read.
+    """
     if not (folder / STUDY).is_file():
         raise UserError(str(folder), f"holds no results: there is no {STUDY} in it.")
-    study = check_study(tomllib.loads((folder / STUDY).read_text(encoding="utf-8")), str(folder / STUDY))
-    published = folder / PUBLISHED
-    with Store(folder) as store:
-        trials, traces = store.table(), store.traces()
+    study, _ = read_study(folder / STUDY)
+    reader = Reader(folder)
+    trials, traces, origins = _trials(reader)
+    closing = read_closing(reader) if study.closing else None
     return Results(
         folder,
         study,
-        tomllib.loads(published.read_text(encoding="utf-8")) if published.is_file() else {},
-        _json(folder / PROVENANCE),
+        reader.toml(PUBLISHED),
+        reader.json(PROVENANCE),
         trials,
         traces,
-        _csv(folder / RESPONSES),
-        _json(folder / IDENTIFIABILITY),
-        _csv(folder / STAGES),
-        read_closing(folder) if study.closing else None,
+        reader.csv(RESPONSES, RESPONSE_COLUMNS),
+        reader.json(IDENTIFIABILITY),
+        reader.csv(STAGES, STAGE_COLUMNS),
+        closing,
+        tuple(reader.damages),
+        mixed(origins),
     )
 
 
-def _csv(path: Path) -> pd.DataFrame:
-    return pd.read_csv(path) if path.is_file() else pd.DataFrame()
-
-
-def _json(path: Path) -> Any:
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int], Trace], Mapping[str, int]]:
+    """The trials, their traces, and how many were made with which versions and processor."""
+    if (reader.folder / FILE).is_file():
+        try:
+            with Store.reading(reader.folder) as store:
+                trials, traces, origins = store.table(), store.traces(), store.origins()
+            if not trials.empty:
+                return trials, traces, origins
+        except DAMAGED as error:
+            reader.said(FILE, error)
+    trials = reader.csv(TRIALS, COLUMNS)
+    if trials.empty:
+        raise UserError(
+            str(reader.folder),
+            [*reader.damages, f"holds no trials: neither {FILE} nor {TRIALS} has any. Run the study again."],
+        )
+    reader.damages.append(
+        f"The course of the searches is not kept here ({FILE}): trials are told from {TRIALS}, without convergence."
+    )
+    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}, {}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import json
 import sqlite3
+import zipfile
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -16,6 +18,9 @@ import pandas as pd
 from hysteresis_bench.fit.objective import Trace
 
 FILE = "trials.sqlite"
+
+DAMAGED = (sqlite3.Error, ValueError, OSError, KeyError, EOFError, zipfile.BadZipFile)
+"""What a store that was cut or overwritten raises when it is read."""
 
 KEY = ("problem", "optimizer", "trial")
 COLUMNS = (
@@ -37,7 +42,10 @@ COLUMNS = (
 
 @dataclass(frozen=True)
 class Outcome:
-    """One finished trial. Absent numbers are None: a trial that failed has no fitness."""
+    """One finished trial. Absent numbers are None: a trial that failed has no fitness.
+
+    origin : the package versions and the processor it was made with, see provenance.origin; "" where nobody knows
+    """
 
     problem: str
     optimizer: str
@@ -54,6 +62,7 @@ class Outcome:
     seconds: float | None = None
     parameters: dict[str, float] = field(default_factory=dict)
     trace: Trace | None = None
+    origin: str = ""
 
     @property
     def key(self) -> tuple[str, str, int]:
@@ -73,10 +82,17 @@ class Store:
             CREATE TABLE IF NOT EXISTS trials (
                 problem TEXT, optimizer TEXT, trial INTEGER, seed TEXT, status TEXT, reason TEXT,
                 evaluations INTEGER, fitness REAL, rmse REAL, relative_rms REAL, max_error REAL,
-                held_out_rmse REAL, seconds REAL, parameters TEXT, trace BLOB,
+                held_out_rmse REAL, seconds REAL, parameters TEXT, trace BLOB, origin TEXT,
                 PRIMARY KEY (problem, optimizer, trial));
             """
         )
+
+    @classmethod
+    def reading(cls, folder: Path) -> Store:
+        """Opened to be read: nothing in the folder changes. Raises one of DAMAGED where it cannot be."""
+        store = cls.__new__(cls)
+        store._connection = sqlite3.connect(f"{(folder / FILE).resolve().as_uri()}?mode=ro", uri=True)
+        return store
 
     def __enter__(self) -> Store:
         return self
@@ -85,8 +101,10 @@ class Store:
         self._connection.close()
 
     def begin(self, title: str) -> None:
-        """Name the study that the trials belong to."""
+        """Name the study that the trials belong to. A store of an older version learns to keep origins."""
         with self._connection:
+            if "origin" not in self._columns():
+                self._connection.execute("ALTER TABLE trials ADD COLUMN origin TEXT")
             self._connection.execute("DELETE FROM study")
             self._connection.execute("INSERT INTO study VALUES (?)", (title,))
 
@@ -106,6 +124,7 @@ class Store:
             outcome.seconds,
             json.dumps(outcome.parameters),
             None if outcome.trace is None else _packed(outcome.trace),
+            outcome.origin,
         )
         with self._connection:
             self._connection.execute(f"INSERT INTO trials VALUES ({', '.join('?' * len(row))})", row)
@@ -113,6 +132,32 @@ class Store:
     def keys(self) -> set[tuple[str, str, int]]:
         """(problem, optimizer, trial) of every trial that is there."""
         return set(self._connection.execute("SELECT problem, optimizer, trial FROM trials"))
+
+    def forget(self, statuses: Collection[str]) -> int:
+        """Take out the trials that ended so, and tell how many: they are missing then, and are run again."""
+        marks = ", ".join("?" * len(statuses))
+        with self._connection:
+            return self._connection.execute(f"DELETE FROM trials WHERE status IN ({marks})", list(statuses)).rowcount
+
+    def outcomes(self) -> Iterator[Outcome]:
+        """Every trial as it was added."""
+        origin = "origin" if "origin" in self._columns() else "''"
+        names = [*COLUMNS[1:], "parameters", "trace", origin]
+        for row in self._connection.execute(f"SELECT {', '.join(names)} FROM trials"):
+            *numbers, parameters, trace, made_by = row
+            known = dict(zip(COLUMNS[1:], numbers, strict=True))
+            trace = _unpacked(trace) if trace else None
+            yield Outcome(**known, parameters=json.loads(parameters), trace=trace, origin=made_by or "")
+
+    def origins(self) -> Mapping[str, int]:
+        """How many of the trials were made with which versions and processor; without those of which nobody knows."""
+        if "origin" not in self._columns():
+            return {}
+        query = "SELECT origin, COUNT(*) FROM trials WHERE origin != '' GROUP BY origin ORDER BY MIN(rowid)"
+        return dict(self._connection.execute(query))
+
+    def _columns(self) -> set[str]:
+        return {row[1] for row in self._connection.execute("PRAGMA table_info(trials)")}
 
     def table(self) -> pd.DataFrame:
         """One row a trial: COLUMNS, then parameter.NAME; ordered by problem, optimizer, trial."""

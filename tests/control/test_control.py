@@ -14,16 +14,18 @@ from hysteresis_bench.commands.control import control
 from hysteresis_bench.compose import System
 from hysteresis_bench.control.closed_loop import Target, track
 from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare
+from hysteresis_bench.control.controllers.pi import Memory, ProportionalIntegral
+from hysteresis_bench.control.controllers.sliding_mode import SlidingMode
+from hysteresis_bench.control.controllers.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer
-from hysteresis_bench.control.pi import Memory, ProportionalIntegral
-from hysteresis_bench.control.references import Reference, published_references, read_trajectory
-from hysteresis_bench.control.sliding_mode import SlidingMode
-from hysteresis_bench.control.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
+from hysteresis_bench.control.references import Reference, published_references
+from hysteresis_bench.control.trajectory import follow, read_trajectory
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.model_file import Estimate, FittedModel, Preparation, read_model, write_model
+from hysteresis_bench.fit.model_file import Estimate, FittedModel, read_model, write_model
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.kernels.second_order import transition
-from hysteresis_bench.signals import Signal
+from hysteresis_bench.signals import Dataset, Record, Signal
 
 PUBLISHED = {"alpha": 0.304225, "beta": 0.675313, "gamma": 0.497724, "d": 1.045814}  # PEA paper, Table 2, G-Pmix
 LINEAR = {"b": 267_700.0, "c_over_m": 510.1069, "k_over_m": 255_700.0}  # PEA paper, Table 3, G-Pmix
@@ -42,7 +44,8 @@ def model(name="hammerstein", effects=(), preparation=None, **changed):
 class StandIn:
     """A plant that is nearly the model: another loop height, a stiffer spring, a noisy and quantised sensor."""
 
-    voltage_limit, noise, resolution = 5.0, 0.003, 0.003
+    input_limit, noise, resolution, units = 5.0, 0.003, 0.003, UNITS
+    noise_floor = np.hypot(noise, resolution / np.sqrt(12.0))
 
     def __init__(self, alpha=1.2 * PUBLISHED["alpha"], stiffness=1.1 * LINEAR["k_over_m"]):
         truth = model(alpha=alpha, k_over_m=stiffness)
@@ -126,12 +129,48 @@ def test_same_seed_same_numbers_other_seed_others():
 
 def test_a_voltage_limit_is_flagged_and_stays_finite():
     rig = StandIn()
-    rig.voltage_limit = 1.0
+    rig.input_limit = 1.0
     found = compare(model(), rig, "stand-in", rate=2000.0)
     assert np.isfinite(found.scores.select_dtypes("number").to_numpy()).all()
     assert (by_controller(found, "saturated_share").loc["ramp"] > 0.2).all()
-    assert any("voltage limit cut" in told for told in found.warnings)
+    assert sum("voltage limit cut" in told for told in found.warnings) == 1
+    assert "An amplitude of 2 needs" in found.warnings[0]
     assert found.responses["voltage"].abs().max() <= 1.0
+
+
+@pytest.mark.parametrize(
+    ("changed", "amplitude", "words"),
+    [
+        ({"units": UNITS | {"output": "nm"}}, 2.0, "output is in nm in the model and in um on the rig"),
+        ({"units": UNITS | {"time": "ms"}}, 2.0, "time is in ms"),
+        ({}, 60.0, "less than 25% of it can be reached"),
+    ],
+)
+def test_a_model_that_does_not_suit_the_rig_is_refused(changed, amplitude, words):
+    with pytest.raises(ValueError, match=words):
+        compare(replace(model(), **changed), StandIn(), "stand-in", rate=2000.0, amplitude=amplitude)
+
+
+def test_a_model_of_larger_inputs_is_told_first():
+    of_sixty_volts = replace(model("bouc-wen"), data={"ranges": {"input": [-60.0, 60.0]}})
+    found = compare(of_sixty_volts, StandIn(), "stand-in", rate=2000.0)
+    assert "fitted to inputs up to 60 V, and the rig takes 5 V" in found.warnings[0]
+
+
+def test_a_trajectory_is_converted_and_settled_as_the_fit_was(tmp_path):
+    path, fitted = tmp_path / "wanted.csv", replace(model("bouc-wen"), preparation=Preparation(settle=3))
+    time = np.arange(401) / 100.0
+    wanted = 1.5 * np.sin(np.pi * time)
+    frame = pd.DataFrame({"time [ms]": 1e3 * time, "reference [nm]": 1e3 * wanted})
+    frame.to_csv(path, index=False)
+    found = follow(fitted, feed_forward(fitted), path, np.inf)
+    np.testing.assert_allclose(found.output, wanted, atol=1e-12)
+    np.testing.assert_allclose(found.time, time, atol=1e-12)
+    assert "output [nm] was converted to um" in found.notes[0]
+    assert "closed loops are passed 3 times" in found.notes[1]
+    record = Record(time, found.input, None, units=UNITS)
+    predicted = fitted.predict(Dataset((record,)))
+    np.testing.assert_allclose(predicted.records[0].output, wanted, atol=0.02)
 
 
 def test_a_model_without_a_linear_section_has_no_sliding_mode_and_says_so():
@@ -151,7 +190,7 @@ def test_on_a_plant_that_is_the_model_only_the_sampling_is_left():
     (reference,) = (each for each in published_references(2.0, RATE) if each.name == "sine-30-hz")
     for series in (False, True):
         plant, forward = rig.plant(RATE), feed_forward(model())
-        run = track(plant, law, forward, reference, 5.0, np.random.default_rng(0), series)
+        run = track(plant, law, forward, reference=reference, limit=5.0, rng=np.random.default_rng(0), series=series)
         errors.append(run.scores()["t_rmse"])
     assert max(errors) < 0.1 * reference.delay_floor  # half a sample of hold, less what feedback takes
 
@@ -278,7 +317,7 @@ def test_trajectories_with_faults_are_told_by_row(tmp_path):
     ):
         path.write_text(text)
         with pytest.raises(UserError, match=words):
-            read_trajectory(path)
+            read_trajectory(path, UNITS)
 
 
 @pytest.fixture
@@ -341,6 +380,6 @@ def test_track_scores_only_past_the_history():
     reference = Reference("step", time, np.where(time > 0, 1.0, 0.0), history=100)
     law = ProportionalIntegral(section.gain, 0.0, 0.0, 1e-3)
     rng = np.random.default_rng(0)
-    run = track(StandIn().plant(1000.0), law, feed_forward(model()), reference, 5.0, rng)
+    run = track(StandIn().plant(1000.0), law, feed_forward(model()), reference=reference, limit=5.0, rng=rng)
     assert run.error.size == 100
     assert run.scores()["t_error"] < 0.5 < np.abs(reference.position - run.displacement)[:100].max()

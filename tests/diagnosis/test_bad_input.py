@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset, Record
 from tests.diagnosis.generator import make
+
+BARE = Question("bouc-wen", options=DiagnosisOptions(jobs=1))
 
 
 def first(dataset, **changes):
@@ -30,7 +33,7 @@ def claims(found):
 
 def test_one_record_is_split_in_time():
     dataset = Dataset((first(make(3, "bouc-wen", hidden=(), noise=0.004).dataset),))
-    found = diagnose(dataset, "bouc-wen", jobs=1)
+    found = diagnose(dataset, BARE)
     assert found.verdict == "no-effect-needed"
     assert found.effects == ()
     assert found.split["held_out"] == ["only, last third"]
@@ -39,7 +42,7 @@ def test_one_record_is_split_in_time():
 
 def test_no_noise_at_all_and_nothing_hidden():
     case = make(4, "bouc-wen", hidden=(), noise=0.0)
-    found = diagnose(case.dataset, "bouc-wen", jobs=1)
+    found = diagnose(case.dataset, BARE)
     assert found.effects == ()
     assert found.verdict == "no-effect-needed"
     assert any("next to no noise" in warning for warning in found.warnings)
@@ -47,7 +50,7 @@ def test_no_noise_at_all_and_nothing_hidden():
 
 @pytest.mark.parametrize("hidden", ["backlash", "input-lag"])
 def test_no_noise_at_all_and_one_effect(hidden):
-    found = diagnose(part_of(make(4, "bouc-wen", hidden=(hidden,), noise=0.0).dataset), "bouc-wen", jobs=1)
+    found = diagnose(part_of(make(4, "bouc-wen", hidden=(hidden,), noise=0.0).dataset), BARE)
     assert len(found.effects) == 1
     assert hidden in claims(found)[0]
     assert found.after.held_out.rmse < 0.1 * found.before.held_out.rmse
@@ -56,7 +59,7 @@ def test_no_noise_at_all_and_one_effect(hidden):
 def test_noise_is_not_called_none():
     """What lies between the samples adds little to it."""
     record = first(make(3, "bouc-wen", hidden=(), noise=0.004).dataset)
-    found = diagnose(Dataset((record.take(slice(0, 160)),)), "bouc-wen", jobs=1)
+    found = diagnose(Dataset((record.take(slice(0, 160)),)), BARE)
     assert found.noise.floor == pytest.approx(0.004 * np.ptp(record.output), rel=0.2)
     assert not any("next to no noise" in warning for warning in found.warnings)
 
@@ -69,7 +72,7 @@ def test_an_output_that_is_cut_off():
         output = np.clip(record.output, -1.5, 1.5) + 0.012 * rng.standard_normal(record.time.size)
         return replace(record, output=output)
 
-    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.0).dataset, cut), "bouc-wen", jobs=1)
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.0).dataset, cut), BARE)
     assert found.effects == ("saturation",) or found.verdict == "unexplained-residual"
     assert any("saturation.sharpness lies at the edge" in warning for warning in found.warnings)
 
@@ -80,14 +83,14 @@ def test_a_delay_longer_than_any_that_is_tried():
     def late(record):
         return replace(record, output=np.interp(record.time - 0.7, record.time, record.output))
 
-    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 2), "bouc-wen", jobs=1)
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 2), BARE)
     assert found.verdict == "unexplained-residual"
     assert not found.effects or "may lack" in found.headline
 
 
 def test_one_frequency_cannot_show_a_resonance():
     record = first(make(3, "bouc-wen", hidden=("resonance",), noise=0.004).dataset)
-    found = diagnose(Dataset((record,)), "bouc-wen", jobs=1)
+    found = diagnose(Dataset((record,)), BARE)
     row = next(row for row in found.candidates if row.effect == "resonance")
     assert not row.applicable
     assert "at the one frequency" in row.reason
@@ -100,7 +103,7 @@ def test_an_output_that_runs_backwards_in_time():
     def backwards(record):
         return replace(record, output=record.output[::-1].copy())
 
-    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, backwards, 2), "bouc-wen", jobs=1)
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, backwards, 2), BARE)
     assert found.verdict == "unexplained-residual"
     assert not found.effects or "may lack" in found.headline
     assert any(
@@ -111,7 +114,7 @@ def test_an_output_that_runs_backwards_in_time():
 def test_constant_output():
     dataset = Dataset((first(make(3, "bouc-wen", hidden=()).dataset, output=np.full(400, 2.0)),))
     with pytest.raises(UserError, match="constant"):
-        diagnose(dataset, "bouc-wen")
+        diagnose(dataset, BARE)
 
 
 def test_output_that_has_nothing_to_do_with_the_input():
@@ -119,7 +122,7 @@ def test_output_that_has_nothing_to_do_with_the_input():
     time = np.linspace(0.0, 5.0, 400)
     walk = np.cumsum(rng.standard_normal(400))
     dataset = Dataset((first(make(3, "bouc-wen", hidden=()).dataset, time=time, output=walk),))
-    found = diagnose(dataset, "bouc-wen", jobs=1)
+    found = diagnose(dataset, BARE)
     assert found.effects == ()
     assert found.verdict == "unexplained-residual"
     assert "does not follow the input" in found.headline
@@ -127,7 +130,7 @@ def test_output_that_has_nothing_to_do_with_the_input():
 
 def test_constant_temperature_is_no_candidate():
     record = first(make(3, "bouc-wen", hidden=()).dataset, columns={"temperature": np.full(400, 21.0)})
-    found = diagnose(Dataset((record,)), "bouc-wen", jobs=1)
+    found = diagnose(Dataset((record,)), BARE)
     row = next(row for row in found.candidates if row.effect == "temperature-sensitivity")
     assert not row.applicable
     assert "never changes" in row.reason
@@ -135,7 +138,7 @@ def test_constant_temperature_is_no_candidate():
 
 def test_one_period_only():
     record = first(make(3, "bouc-wen", hidden=()).dataset)
-    found = diagnose(Dataset((record.take(slice(0, 80)),)), "bouc-wen", jobs=1)
+    found = diagnose(Dataset((record.take(slice(0, 80)),)), BARE)
     assert found.effects == ()
     assert any("One record only" in warning for warning in found.warnings)
 
@@ -143,4 +146,4 @@ def test_one_period_only():
 def test_unknown_model_and_too_few_samples_are_told_together():
     record = first(make(3, "bouc-wen", hidden=()).dataset)
     with pytest.raises(UserError, match="2 faults"):
-        diagnose(Dataset((record.take(slice(0, 12)),)), "bouc-when")
+        diagnose(Dataset((record.take(slice(0, 12)),)), Question("bouc-when"))

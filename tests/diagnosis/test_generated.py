@@ -6,8 +6,9 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.commands.diagnose import diagnose as command
-from hysteresis_bench.data_files import write_csv
+from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.signals import Dataset
@@ -31,7 +32,7 @@ CASES = [
 @pytest.mark.parametrize(("seed", "model", "hidden"), CASES)
 def test_what_is_hidden_is_named(seed, model, hidden):
     case = make(seed, model, hidden)
-    found = diagnose(case.dataset, model, jobs=1)
+    found = diagnose(case.dataset, Question(model, options=DiagnosisOptions(jobs=1)))
     alike = {effect: {effect, *(one.rival for one in found.ties if one.effect == effect)} for effect in found.effects}
     missed = [effect for effect in hidden if not any(effect in names for names in alike.values())]
     extra = [effect for effect, names in alike.items() if not names & set(hidden)]

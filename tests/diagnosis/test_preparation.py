@@ -6,6 +6,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.preparation import passes_to_close
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.fit.settling import CLOSED
 from hysteresis_bench.signals import Dataset, Record
 
@@ -19,7 +20,7 @@ def test_a_bouc_wen_loop_closes_at_once():
     values = np.array([[0.3], [0.6], [0.2], [1.0]])
     output = System(model).simulate(twice.signal, values)[200:, 0]
     dataset = Dataset((Record(TIME, 4.0 * SINE, output),))
-    assert passes_to_close(model, dataset, (), None, None, 0) == 2
+    assert passes_to_close(model, dataset, Question("bouc-wen")) == 2
 
 
 def needed(share, constant):
@@ -43,4 +44,4 @@ def test_what_settles_slowly_is_repeated_until_it_does(share, constant, passes):
     fixed |= {"creep.share": share, "creep.time_constant": constant, "creep.decades": 0.0}
     dataset = Dataset((Record(TIME, SINE, 2.0 * SINE),))
     model = registry.build("models", "bouc-wen")
-    assert passes_to_close(model, dataset, ("creep",), None, fixed, 0) == passes
+    assert passes_to_close(model, dataset, Question("bouc-wen", ("creep",), fixed=fixed)) == passes

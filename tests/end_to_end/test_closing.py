@@ -13,10 +13,10 @@ from click.testing import CliRunner, Result
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.kernels.lag import lag
-from hysteresis_bench.report.shared.page import number
+from hysteresis_bench.report.shared.text import number
 from hysteresis_bench.study.study_file import check_study, read_study
 from hysteresis_bench.study_diagnosis import ClosingTicket, asked_for, run_closing
-from tests.end_to_end.test_run import bench
+from tests.end_to_end.test_run import run_command
 
 STUDIES = Path(__file__).parents[2] / "studies"
 LAG = 0.05
@@ -60,10 +60,10 @@ def write(folder: Path) -> Path:
 @pytest.fixture(scope="module")
 def closed(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("closed")
-    done = bench("run", write(folder), "--jobs", 1)
+    done = run_command("run", write(folder), "--jobs", 1)
     assert done.returncode == 0, done.stderr + done.stdout
     assert "Closing the loop: " in done.stdout
-    return folder / "results" / "closed"
+    return folder / "runs" / "closed"
 
 
 def section(results: Path) -> str:
@@ -107,7 +107,7 @@ def test_the_same_diagnosis_is_kept(closed):
     made = file.stat().st_mtime_ns
     study = closed.parents[1] / "closed.toml"
     study.write_text(STUDY.replace("<lag>", "delay"), encoding="utf-8")
-    assert bench("run", study, "--jobs", 1).returncode == 0
+    assert run_command("run", study, "--jobs", 1).returncode == 0
     assert file.stat().st_mtime_ns == made
     assert "A delay is not considered." in section(closed)
 
@@ -133,10 +133,10 @@ def test_a_diagnosis_that_failed_is_told(closed, tmp_path):
 def test_an_unknown_record_is_told_before_the_trials(tmp_path):
     study = write(tmp_path)
     study.write_text(STUDY.replace("lagging:middle", "lagging:midle"), encoding="utf-8")
-    done = bench("run", study)
+    done = run_command("run", study)
     assert done.returncode == 2
     assert 'no record "lagging:midle"' in done.stderr
-    assert not (tmp_path / "results").exists()
+    assert not (tmp_path / "runs").exists()
 
 
 def test_words_do_not_make_it_another_diagnosis():

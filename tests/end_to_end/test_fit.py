@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from tests.end_to_end.test_run import COMMAND, ENVIRONMENT, bench
+from tests.end_to_end.test_run import COMMAND, ENVIRONMENT, run_command
 
 
 @pytest.fixture(scope="module")
-def bench_file(tmp_path_factory):
+def data_file(tmp_path_factory):
     """A noisy cubic in two runs, with units."""
-    folder = tmp_path_factory.mktemp("bench")
+    folder = tmp_path_factory.mktemp("data")
     rng = np.random.default_rng(5)
     frames = []
     for run, amplitude in (("small", 0.5), ("large", 1.0)):
@@ -22,16 +22,16 @@ def bench_file(tmp_path_factory):
         drive = amplitude * np.sin(2 * np.pi * time)
         output = 1.5 * drive + 0.4 * drive**3 + 0.01 * rng.standard_normal(200)
         frames.append(pd.DataFrame({"time [s]": time, "input [V]": drive, "output [um]": output, "run": run}))
-    path = folder / "bench.csv"
+    path = folder / "cubic.csv"
     pd.concat(frames).to_csv(path, index=False)
     return path
 
 
 @pytest.fixture(scope="module")
-def fitted(bench_file, tmp_path_factory):
+def fitted(data_file, tmp_path_factory):
     out = tmp_path_factory.mktemp("out") / "fit"
-    done = bench(
-        "fit", bench_file, "--model", "polynomial", "--held-out", "bench:small", "--budget", 1500, "--out", out
+    done = run_command(
+        "fit", data_file, "--model", "polynomial", "--held-out", "cubic:small", "--budget", 1500, "--out", out
     )
     assert done.returncode == 0, done.stderr
     return done, out
@@ -54,14 +54,14 @@ def test_parameters_lie_within_their_standard_errors(fitted):
         assert abs(value - true) < 4 * error
 
 
-def test_model_file_follows_its_schema(fitted, bench_file):
+def test_model_file_follows_its_schema(fitted, data_file):
     content = json.loads((fitted[1] / "model.json").read_text(encoding="utf-8"))
-    assert content["schema"] == 1
+    assert content["schema"] == 2
     assert content["model"] == "polynomial"
     assert content["units"]["output"] == "um"
     assert set(content["parameters"]["a"]) == {"value", "standard_error", "unit"}
-    assert content["data"]["fitted"] == ["bench:large"]
-    assert content["data"]["held_out"] == ["bench:small"]
+    assert content["data"]["fitted"] == ["cubic:large"]
+    assert content["data"]["held_out"] == ["cubic:small"]
     assert len(content["data"]["sha256"][0]) == 64
     assert set(content["error"]) == {"fitted", "held_out"}
     assert set(content["error"]["fitted"]) == {"rmse", "relative_rms", "max_error"}
@@ -71,33 +71,33 @@ def test_predict_replaces_the_output(fitted, tmp_path):
     data = tmp_path / "new.csv"
     data.write_text("time [s],input [V]\n0,0\n1,0.5\n2,1\n", encoding="utf-8")
     out = tmp_path / "predicted.csv"
-    done = bench("predict", fitted[1] / "model.json", data, "--out", out)
+    done = run_command("predict", fitted[1] / "model.json", data, "--out", out)
     assert done.returncode == 0, done.stderr
     predicted = pd.read_csv(out)
     assert list(predicted.columns) == ["time [s]", "input [V]", "output [um]"]
     assert predicted["output [um]"].to_numpy() == pytest.approx([0, 1.5 * 0.5 + 0.4 * 0.125, 1.9], abs=0.02)
 
 
-def test_the_same_seed_gives_the_same_model(fitted, bench_file, tmp_path):
-    arguments = ("--model", "polynomial", "--held-out", "bench:small", "--budget", 1500)
-    assert bench("fit", bench_file, *arguments, "--out", tmp_path / "fit").returncode == 0
+def test_the_same_seed_gives_the_same_model(fitted, data_file, tmp_path):
+    arguments = ("--model", "polynomial", "--held-out", "cubic:small", "--budget", 1500)
+    assert run_command("fit", data_file, *arguments, "--out", tmp_path / "fit").returncode == 0
     one, two = (json.loads((folder / "model.json").read_text()) for folder in (fitted[1], tmp_path / "fit"))
     assert one == two
 
 
-def test_a_fit_with_an_effect_and_a_fixed_parameter(bench_file, tmp_path):
+def test_a_fit_with_an_effect_and_a_fixed_parameter(data_file, tmp_path):
     arguments = ("--effect", "bias", "--fix", "b=0.4", "--budget", 1000, "--out", tmp_path / "fit")
-    done = bench("fit", bench_file, "--model", "polynomial", *arguments)
+    done = run_command("fit", data_file, "--model", "polynomial", *arguments)
     assert done.returncode == 0, done.stderr
     content = json.loads((tmp_path / "fit" / "model.json").read_text())
     assert content["fixed"] == {"b": 0.4}
     assert abs(content["effects"][0]["parameters"]["offset"]["value"]) < 0.01
 
 
-def test_two_searches_that_disagree_are_told(bench_file, tmp_path):
+def test_two_searches_that_disagree_are_told(data_file, tmp_path):
     """On a budget of one evaluation nothing but the polish agrees; on a flat model nothing can."""
     arguments = ("--model", "polynomial", "--bounds", "a=-1:-0.5", "--bounds", "b=1:9", "--budget", 1)
-    done = bench("fit", bench_file, *arguments, "--out", tmp_path / "fit")
+    done = run_command("fit", data_file, *arguments, "--out", tmp_path / "fit")
     assert done.returncode == 0
     assert "edge of its box" in done.stdout.replace("\n", " ")
 
@@ -117,8 +117,8 @@ def test_two_searches_that_disagree_are_told(bench_file, tmp_path):
         (["--model", "polynomial", "--effect", "temperature-sensitivity"], "temperature"),
     ],
 )
-def test_faults_are_one_message_and_exit_2(bench_file, tmp_path, arguments, told):
-    done = bench("fit", bench_file, *arguments, "--out", tmp_path / "fit")
+def test_faults_are_one_message_and_exit_2(data_file, tmp_path, arguments, told):
+    done = run_command("fit", data_file, *arguments, "--out", tmp_path / "fit")
     assert done.returncode == 2, done.stdout
     assert told in " ".join(done.stderr.split())
     assert "Traceback" not in done.stderr
@@ -128,7 +128,7 @@ def test_faults_are_one_message_and_exit_2(bench_file, tmp_path, arguments, told
 def test_a_loop_that_is_open_cannot_be_settled(tmp_path):
     data = tmp_path / "ramp.csv"
     data.write_text("time,input,output\n" + "".join(f"{i},{i},{i}\n" for i in range(20)), encoding="utf-8")
-    done = bench("fit", data, "--model", "polynomial", "--settle", "--out", tmp_path / "fit")
+    done = run_command("fit", data, "--model", "polynomial", "--settle", "--out", tmp_path / "fit")
     assert done.returncode == 2
     assert "is not a closed loop" in done.stderr
 
@@ -136,7 +136,7 @@ def test_a_loop_that_is_open_cannot_be_settled(tmp_path):
 def test_a_constant_output_is_nothing_to_identify(tmp_path):
     data = tmp_path / "flat.csv"
     data.write_text("time,input,output\n" + "".join(f"{i},{i},3\n" for i in range(20)), encoding="utf-8")
-    done = bench("fit", data, "--model", "polynomial", "--out", tmp_path / "fit")
+    done = run_command("fit", data, "--model", "polynomial", "--out", tmp_path / "fit")
     assert done.returncode == 2
     assert "output is constant" in done.stderr
 
@@ -157,10 +157,10 @@ def test_a_constant_output_is_nothing_to_identify(tmp_path):
         ),
     ],
 )
-def test_a_broken_model_file_is_told(tmp_path, bench_file, content, told):
+def test_a_broken_model_file_is_told(tmp_path, data_file, content, told):
     path = tmp_path / "model.json"
     path.write_text(content, encoding="utf-8")
-    done = bench("predict", path, bench_file, "--out", tmp_path / "out.csv")
+    done = run_command("predict", path, data_file, "--out", tmp_path / "out.csv")
     assert done.returncode == 2
     assert told in done.stderr
     assert "Traceback" not in done.stderr
@@ -169,7 +169,7 @@ def test_a_broken_model_file_is_told(tmp_path, bench_file, content, told):
 def test_measure_is_seeded(tmp_path):
     files = [tmp_path / name for name in ("one.csv", "two.csv", "three.csv")]
     for file, seed in zip(files, (1, 1, 2), strict=True):
-        assert bench("measure", "sma", "pwm-60s", "--seed", seed, "--out", file).returncode == 0
+        assert run_command("measure", "sma", "pwm-60s", "--seed", seed, "--out", file).returncode == 0
     one, two, three = (file.read_text() for file in files)
     assert one == two != three
     assert one.startswith("time [s],input [degC],output [deg]")
@@ -187,13 +187,13 @@ def test_measure_is_seeded(tmp_path):
     ],
 )
 def test_wrong_words_are_met_with_the_nearest_known(arguments, told, tmp_path):
-    done = bench(*arguments, cwd=tmp_path)
+    done = run_command(*arguments, cwd=tmp_path)
     assert done.returncode == 2
     assert told in " ".join(done.stderr.split())
 
 
 def test_broken_plugins_are_listed_with_their_fault():
-    done = bench("list")
+    done = run_command("list")
     assert done.returncode == 0
     text = " ".join(done.stdout.split())
     assert "faulty-missing broken: AttributeError" in text

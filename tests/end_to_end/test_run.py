@@ -12,6 +12,7 @@ import pandas as pd
 import pytest
 
 from tests.conftest import PLUGINS
+from tests.study.test_pool import descendants
 
 COMMAND = [sys.executable, "-m", "hysteresis_bench"]
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(PLUGINS), "COLUMNS": "140"}
@@ -29,7 +30,7 @@ data = ["cubic.csv"]
 """
 
 
-def bench(*arguments: object, **more) -> subprocess.CompletedProcess:
+def run_command(*arguments: object, **more) -> subprocess.CompletedProcess:
     return subprocess.run([*COMMAND, *map(str, arguments)], env=ENVIRONMENT, capture_output=True, text=True, **more)
 
 
@@ -47,21 +48,21 @@ def write_study(folder: Path, optimizers: list[str], budget: int = 300, timeout:
 
 
 def trials(folder: Path) -> pd.DataFrame:
-    return pd.read_csv(folder / "results" / "cubic" / "trials.csv")
+    return pd.read_csv(folder / "runs" / "cubic" / "trials.csv")
 
 
 @pytest.fixture(scope="module")
 def finished(tmp_path_factory) -> Path:
     folder = tmp_path_factory.mktemp("finished")
     study = write_study(folder, ["pso", "mpso", "random-search", "scipy-least-squares"])
-    done = bench("run", study, "--jobs", 2)
+    done = run_command("run", study, "--jobs", 2)
     assert done.returncode == 0, done.stderr
     assert "report:" in done.stdout
     return folder
 
 
 def test_a_finished_study_leaves_what_it_should(finished):
-    folder = finished / "results" / "cubic"
+    folder = finished / "runs" / "cubic"
     for name in ("study.toml", "provenance.json", "trials.sqlite", "trials.csv", "summary.csv", "report.html"):
         assert (folder / name).is_file(), name
     table = trials(finished)
@@ -75,17 +76,17 @@ def test_a_finished_study_leaves_what_it_should(finished):
 
 def test_one_worker_or_two_give_the_same_bits(finished, tmp_path):
     study = write_study(tmp_path, ["pso", "mpso", "random-search", "scipy-least-squares"])
-    assert bench("run", study, "--jobs", 1).returncode == 0
+    assert run_command("run", study, "--jobs", 1).returncode == 0
     one, two = (trials(folder).drop(columns="seconds") for folder in (tmp_path, finished))
     pd.testing.assert_frame_equal(one, two, check_exact=True)
 
 
 def test_more_trials_and_optimizers_continue_the_folder(finished, tmp_path):
     study = write_study(tmp_path, ["pso", "mpso"])
-    assert bench("run", study, "--trials", 1).returncode == 0
+    assert run_command("run", study, "--trials", 1).returncode == 0
     before = trials(tmp_path)
     study = write_study(tmp_path, ["pso", "mpso", "random-search", "scipy-least-squares"])
-    assert bench("run", study).returncode == 0
+    assert run_command("run", study).returncode == 0
     after = trials(tmp_path)
     assert len(after) == 8
     kept = after.merge(before, on=["problem", "optimizer", "trial"], suffixes=("", "_before"))
@@ -108,7 +109,7 @@ def test_killed_at_a_random_moment_and_run_again(finished, tmp_path):
         time.sleep(float(rng.uniform(0.5, 6.0)))
         os.killpg(running.pid, signal.SIGKILL)
         running.wait()
-    assert bench("run", study).returncode == 0
+    assert run_command("run", study).returncode == 0
     pd.testing.assert_frame_equal(
         trials(tmp_path).drop(columns="seconds"), trials(finished).drop(columns="seconds"), check_exact=True
     )
@@ -117,7 +118,7 @@ def test_killed_at_a_random_moment_and_run_again(finished, tmp_path):
 def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
     faulty = ["raises", "returns", "empty", "outside", "hangs", "dies", "greedy", "stubborn"]
     study = write_study(tmp_path, [*(f"faulty-{name}" for name in faulty), "pso"], timeout="6 s")
-    done = bench("run", study, "--trials", 1, "--jobs", 2)
+    done = run_command("run", study, "--trials", 1, "--jobs", 2)
     assert done.returncode == 1, done.stderr
     table = trials(tmp_path).set_index("optimizer")
     expected = {
@@ -136,7 +137,7 @@ def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
         assert reason in str(table.loc[name, "reason"])
     assert table.loc["faulty-stubborn", "evaluations"] == 300
     assert "faulty-hangs" in done.stdout
-    again = bench("run", study, "--trials", 1)
+    again = run_command("run", study, "--trials", 1)
     assert again.returncode == 1
     assert len(trials(tmp_path)) == len(table)
 
@@ -153,7 +154,7 @@ def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
 def test_a_folder_of_another_study_is_refused(finished, change, told):
     study = finished / "other.toml"
     study.write_text((finished / "cubic.toml").read_text(encoding="utf-8").replace(*change), encoding="utf-8")
-    done = bench("run", study, "--out", finished / "results" / "cubic")
+    done = run_command("run", study, "--out", finished / "runs" / "cubic")
     assert done.returncode == 2
     assert told in done.stderr
     assert "Traceback" not in done.stderr
@@ -161,38 +162,37 @@ def test_a_folder_of_another_study_is_refused(finished, change, told):
 
 def test_a_folder_with_other_things_in_it_is_refused(tmp_path):
     study = write_study(tmp_path, ["pso"])
-    done = bench("run", study, "--out", tmp_path)
+    done = run_command("run", study, "--out", tmp_path)
     assert done.returncode == 2
     assert "is not empty" in done.stderr
 
 
 def test_changed_data_are_another_study(finished, tmp_path):
     study = write_study(tmp_path, ["pso"])
-    assert bench("run", study, "--trials", 1).returncode == 0
+    assert run_command("run", study, "--trials", 1).returncode == 0
     with (tmp_path / "cubic.csv").open("a", encoding="utf-8") as file:
         file.write("2,0.5,0.6\n")
-    done = bench("run", study, "--trials", 1)
+    done = run_command("run", study, "--trials", 1)
     assert done.returncode == 2
     assert "cubic.csv has changed" in done.stderr
 
 
-def test_workers_end_with_a_killed_parent(tmp_path):
+@pytest.mark.parametrize("command", ["run", "diagnose"])
+def test_workers_end_with_a_killed_parent(command, tmp_path):
     study = write_study(tmp_path, ["faulty-hangs"])
-    command = [*COMMAND, "run", str(study), "--jobs", "2"]
-    running = subprocess.Popen(command, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-
-    def children() -> list[Path]:
-        stats = [(path, path.read_text().rpartition(")")[2].split()) for path in Path("/proc").glob("[0-9]*/stat")]
-        return [path for path, fields in stats if fields[1] == str(running.pid)]
-
-    deadline = time.monotonic() + 60
-    while len(children()) < 3 and time.monotonic() < deadline:  # two workers and multiprocessing's tracker
-        time.sleep(0.2)
-    workers = children()
-    assert len(workers) >= 3
-    time.sleep(3)
+    commands = {
+        "run": ["run", study, "--jobs", "2"],
+        "diagnose": ["diagnose", tmp_path / "cubic.csv", "--model", "bouc-wen", "--jobs", "2", "--out", tmp_path / "d"],
+    }
+    arguments = [*COMMAND, *map(str, commands[command])]
+    running = subprocess.Popen(arguments, env=ENVIRONMENT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    deadline = time.monotonic() + 90
+    least = {"run": 3, "diagnose": 2}[command]  # the template of the workers, and two of these
+    while len(workers := descendants(running.pid)) < least and time.monotonic() < deadline and running.poll() is None:
+        time.sleep(0.1)
+    assert len(workers) >= least
     running.kill()
     running.wait()
-    while any(path.exists() for path in workers) and time.monotonic() < deadline + 30:
-        time.sleep(0.2)
-    assert not any(path.exists() for path in workers)
+    while any(Path(f"/proc/{worker}").exists() for worker in workers) and time.monotonic() < deadline + 30:
+        time.sleep(0.1)
+    assert not any(Path(f"/proc/{worker}").exists() for worker in workers)

@@ -9,8 +9,8 @@ import pytest
 
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.fit.combinations import Combination, blind_groups, sparsest
-from hysteresis_bench.fit.identifiability import analyse, profile
+from hysteresis_bench.fit.identifiability.analysis import analyse, profile
+from hysteresis_bench.fit.identifiability.combinations import Combination, blind_groups, sparsest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space
@@ -185,7 +185,7 @@ def test_combinations_in_words():
 def test_profile_of_a_line_against_the_closed_form():
     posed, _, best = fitted_line(0.1 * np.random.default_rng(3).standard_normal(TIME.size))
     grid = best[0] + np.linspace(-0.1, 0.1, 5)
-    found = profile(posed, "slope", grid, best)
+    found = profile(posed, "slope", grid, values=best)
     target = posed.records[0].output
     for slope, squares, intercept in zip(grid, found.squares, found.values[1], strict=True):
         rest = target - slope * TIME
@@ -198,16 +198,16 @@ def test_profile_of_a_line_against_the_closed_form():
 def test_profile_along_a_blind_direction_is_flat():
     values = np.array([2.0, 0.5, 1.3, 3.0, 1.0, 0.2])
     posed = problem(Tied(), values, 0.01)
-    found = profile(posed, "a", np.array([1.6, 2.0, 2.4]), values)
+    found = profile(posed, "a", np.array([1.6, 2.0, 2.4]), values=values)
     assert np.max(found.ratio) - np.min(found.ratio) < 1e-3
 
 
 def test_refuses_what_makes_no_sense():
     posed = problem(Line(), [1.0, 0.0], 0.01)
     with pytest.raises(ValueError, match="slop"):
-        profile(posed, "slop", np.array([0.0]), np.array([1.0, 0.0]))
+        profile(posed, "slop", np.array([0.0]), values=np.array([1.0, 0.0]))
     with pytest.raises(ValueError, match="leaves the box"):
-        profile(posed, "slope", np.array([9.0]), np.array([1.0, 0.0]))
+        profile(posed, "slope", np.array([9.0]), values=np.array([1.0, 0.0]))
     short = Problem(posed.system, (posed.records[0].take(slice(0, 2)),), posed.space, posed.loss)
     with pytest.raises(ValueError, match="2 samples"):
         analyse(short, np.array([1.0, 0.0]))

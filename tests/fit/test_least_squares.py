@@ -1,11 +1,13 @@
 """The least squares of many chains against scipy's, and what folds may not see."""
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.optimize import least_squares
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.search.cross_validation import FOLDS, advantage, cut, left_out_errors
-from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import FOLDS, advantage, cut, left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, point_of, split, values_of
 from tests.diagnosis.generator import make
 
@@ -39,9 +41,11 @@ def test_a_fold_does_not_see_what_it_leaves_out():
     weights = blocks.training[:, :1]
     start = np.full((problem.space.dimension, 1), 0.4)
     expected, _ = descend(problem, start, weights, iterations=40)
-    for record, fold in zip(problem.records, split(blocks.fold, problem.records), strict=True):
-        record.output[fold == 0] += 100.0
-    found, _ = descend(problem, start, weights, iterations=40)
+    changed = tuple(
+        replace(record, output=np.where(fold == 0, record.output + 100.0, record.output))
+        for record, fold in zip(problem.records, split(blocks.fold, problem.records), strict=True)
+    )
+    found, _ = descend(replace(problem, records=changed), start, weights, iterations=40)
     assert np.allclose(found, expected, atol=1e-9)
 
 

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.compose import System
-from hysteresis_bench.contracts import Model
+from hysteresis_bench.contracts import Model, Optimizer
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import BudgetSpent, Objective, OutsideBox, Problem
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import shared_start
 from hysteresis_bench.parameters import Parameter, Space
 from tests.conftest import record
 
@@ -61,9 +63,9 @@ def test_residuals_and_losses_tell_the_same(polynomial_problem, name):
 
 
 def test_history_is_simulated_but_not_scored(polynomial_problem):
-    wrong_start = record()
-    wrong_start.output[:5] += 100.0
-    problem = replace(polynomial_problem, records=(replace(wrong_start, history=5),))
+    wrong_start = record().output.copy()
+    wrong_start[:5] += 100.0
+    problem = replace(polynomial_problem, records=(replace(record(), output=wrong_start, history=5),))
     truth = problem.space.to_unit(np.array([[1.0], [0.5]]))
     assert problem.losses(truth)[0] < 1e-12
     assert problem.samples == 35
@@ -127,3 +129,44 @@ def test_points_are_left_as_they_were(polynomial_problem):
     before = points.copy()
     Objective(polynomial_problem, 6).many(points)
     assert np.array_equal(points, before)
+
+
+class Prying(Optimizer):
+    """Tries to buy evaluations, to forge the best and to change the problem; notes what let it."""
+
+    def search(self, objective, start, rng):
+        self.let = []
+        objective.many(start(3))
+        for name, value in (("evaluations", 0), ("budget", 10**6), ("best", 0.0), ("dimension", 1), ("_problem", None)):
+            try:
+                setattr(objective, name, value)
+                self.let.append(name)
+            except AttributeError:
+                pass
+        type(objective).evaluations = property(lambda self: 0)
+        self.let += [name for name in dir(objective) if isinstance(getattr(objective, name), (Objective, Problem))]
+        while True:
+            objective.many(start(3))
+
+
+def test_an_optimizer_cannot_reach_the_counters_the_best_or_the_problem(polynomial_problem):
+    optimizer, start = Prying(), shared_start(2, 1)
+    found = search(polynomial_problem, optimizer, budget=10, start=start, rng=np.random.default_rng(0))
+    assert optimizer.let == []
+    assert found.evaluations == 10
+    assert found.spent
+    assert np.isfinite(found.loss)
+
+
+def test_what_a_plugin_gets_cannot_be_written_into():
+    column = np.linspace(20.0, 30.0, 40)
+    given = replace(record(), columns={"temperature": column})
+    signal = given.signal
+    arrays = [given.time, given.input, given.output, given.measured, given.columns["temperature"]]
+    arrays += [signal.time, signal.input, signal.columns["temperature"], signal.with_input(np.ones((40, 3))).input]
+    for array in arrays:
+        with pytest.raises(ValueError, match="read-only"):
+            array[0] = 1.0
+    with pytest.raises(TypeError):
+        signal.columns["temperature"] = column
+    column[0] = 0.0  # whoever made an array may still write into his own

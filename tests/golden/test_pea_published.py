@@ -13,7 +13,7 @@ from hysteresis_bench.report.paper.audit import audit
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.study.study_file import read_study
 from hysteresis_plugins.optimizers.gpmix import Gpmix
-from hysteresis_plugins.rigs.pea_noise_free import PUBLISHED
+from hysteresis_plugins.rigs.pea_known_truth import PUBLISHED
 
 STUDIES = Path(__file__).parents[2] / "studies"
 

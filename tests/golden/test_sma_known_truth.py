@@ -4,7 +4,8 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.fit.accuracy import accuracy
-from hysteresis_bench.fit.search import generator, search, shared_start
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.study_file import ProblemSpec
 from hysteresis_plugins.rigs.sma_known_truth import TRUTH
@@ -18,9 +19,8 @@ def found(optimizer, scaling):
     )
     built = build_problem(spec, 1, None)
     start = shared_start(5, "golden", optimizer)
-    result = search(
-        built.problem, registry.build("optimizers", optimizer), 15050, start, generator("golden", optimizer)
-    )
+    rng = generator("golden", optimizer)
+    result = search(built.problem, registry.build("optimizers", optimizer), budget=15050, start=start, rng=rng)
     return result.values, accuracy(built.problem.system, built.dataset.fitted, result.values).relative_rms
 
 

@@ -8,10 +8,10 @@ import pytest
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.fitting import fit_records
-from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse
+from hysteresis_bench.fit.least_squares import polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.search import polish
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 from hysteresis_plugins.models.free_energy import FreeEnergy

@@ -10,13 +10,13 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.fitting import fit_records
+from hysteresis_bench.fit.fitting import FitOptions, fit_records
 from hysteresis_bench.fit.model_file import read_model, write_model
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import INDEX, Dataset, Record
 from hysteresis_bench.study.problems import build_problem, build_system
 from hysteresis_bench.study.study_file import check_study
-from tests.end_to_end.test_run import bench
+from tests.end_to_end.test_run import run_command
 
 EDDY = "eddy-current"
 NAME = "eddy-current.coefficient"
@@ -138,20 +138,20 @@ def lagging(tmp_path_factory):
         output = system.simulate(Record(time, drive, None).signal, np.array([[x] for x in TRUTH.values()]))[:, 0]
         output += 0.002 * rng.normal(size=time.size)
         frames.append(pd.DataFrame({"time [s]": time, "input [A]": drive, "output [T]": output, "run": run}))
-    path = tmp_path_factory.mktemp("lagging") / "bench.csv"
+    path = tmp_path_factory.mktemp("lagging") / "lagging.csv"
     pd.concat(frames).to_csv(path, index=False)
     return path
 
 
 def test_a_fit_recovers_it_and_its_file_is_the_same_model(lagging, tmp_path):
-    from hysteresis_bench.data_files import read_data
+    from hysteresis_bench.data.data_files import read_data
 
     dataset = read_data([lagging])
-    found = fit_records(dataset, "bouc-wen", [EDDY], budget=1500)
+    found = fit_records(dataset, "bouc-wen", [EDDY], options=FitOptions(budget=1500))
     estimate = found.model.parameters[NAME]
     assert estimate.unit == "A s/T"
     assert abs(estimate.value - TRUTH[NAME]) < 4 * estimate.standard_error < 0.1 * TRUTH[NAME]
-    without = fit_records(dataset, "bouc-wen", budget=1500)
+    without = fit_records(dataset, "bouc-wen", options=FitOptions(budget=1500))
     assert without.records["rmse"].max() > 5 * found.records["rmse"].max()
     write_model(tmp_path / "model.json", found.model)
     content = json.loads((tmp_path / "model.json").read_text(encoding="utf-8"))
@@ -164,14 +164,16 @@ def test_a_fit_recovers_it_and_its_file_is_the_same_model(lagging, tmp_path):
 
 
 def test_the_command_line_fits_predicts_and_lists_it(lagging, tmp_path):
-    done = bench("fit", lagging, "--model", "bouc-wen", "--effect", EDDY, "--budget", 800, "--out", tmp_path / "fit")
+    done = run_command(
+        "fit", lagging, "--model", "bouc-wen", "--effect", EDDY, "--budget", 800, "--out", tmp_path / "fit"
+    )
     assert done.returncode == 0, done.stderr
     assert NAME in done.stdout
-    done = bench("predict", tmp_path / "fit" / "model.json", lagging, "--out", tmp_path / "out.csv")
+    done = run_command("predict", tmp_path / "fit" / "model.json", lagging, "--out", tmp_path / "out.csv")
     assert done.returncode == 0, done.stderr
     both = (pd.read_csv(path)["output [T]"].to_numpy() for path in (lagging, tmp_path / "out.csv"))
     assert np.std(np.subtract(*both)) < 0.004
-    told = bench("list", "effects").stdout
+    told = run_command("list", "effects").stdout
     assert EDDY in told
     assert "bouc-wen, free-energy" in " ".join(told.split())
 

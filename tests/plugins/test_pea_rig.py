@@ -126,6 +126,12 @@ def test_sensor_rounds_to_its_resolution_and_adds_its_noise():
     assert np.std(readings) == pytest.approx(np.hypot(0.003, 0.003 / np.sqrt(12)), rel=0.05)
 
 
+def test_the_noise_floor_is_the_rms_of_what_the_sensor_adds():
+    rig, truth = PeaRig(), np.linspace(0.0, 1.0, 20_000)
+    added = rig.sensed(truth, np.random.default_rng(0)) - truth
+    assert rig.noise_floor == pytest.approx(np.sqrt(np.mean(added**2)), rel=0.02)
+
+
 @pytest.mark.parametrize("experiment", PeaRig.experiments)
 def test_every_experiment_gives_a_record_with_units_and_what_was_hidden(experiment):
     rig = PeaRig()

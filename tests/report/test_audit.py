@@ -113,10 +113,10 @@ def test_faulty_arithmetic_is_told_and_the_rest_goes_on():
 
 
 def test_unknown_keys_of_a_published_file_are_told_all_at_once():
-    with pytest.raises(UserError) as told:
+    with pytest.raises(UserError) as error:
         check_published({"audits": [], "claim": [{"say": "x"}]})
-    assert "audits" in str(told.value)
-    assert "claim 0 say" in str(told.value)
+    for part in ('no key "audits"', 'Did you mean "audit"?', '[[claim]] 1: no key "say"', 'Did you mean "says"?'):
+        assert part in str(error.value), part
 
 
 def test_values_are_numbers_not_arrays_of_them():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -14,8 +15,10 @@ from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
+from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, DRAWN, RESPONSES, write_diagnosis
 from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
 from hysteresis_bench.diagnosis.findings.ties import tie
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.accuracy import Accuracy
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
@@ -68,11 +71,13 @@ def diagnosis() -> Diagnosis:
         split={"fitted": ["slow", "fast"], "held_out": ["other"], "how": "held out as asked"},
         warnings=("One thing to know.", f"input-lag and transport-delay cannot be told apart: {one.reason}."),
         units=UNITS,
+        given_up=None,
     )
 
 
 def _written(folder: Path, diagnosis: Diagnosis) -> str:
-    return write_diagnosis_page(folder, diagnosis).read_text(encoding="utf-8")
+    write_diagnosis(folder, diagnosis)
+    return write_diagnosis_page(folder).read_text(encoding="utf-8")
 
 
 def _plain(page: str) -> str:
@@ -147,3 +152,41 @@ def test_many_records_are_told_and_some_drawn(tmp_path, diagnosis):
     assert f"{12 - MOST} more records are not drawn" in page
     assert "other (held-out)" in page
     assert len(list((tmp_path / "figures").glob("loop-*.svg"))) == MOST
+
+
+def test_the_page_of_an_older_diagnosis_shows_what_its_files_have(tmp_path, diagnosis):
+    _written(tmp_path, diagnosis)
+    content = json.loads((tmp_path / DIAGNOSIS).read_text())
+    for key in ("floor", "doubtful", "described", "offset_of_both", "equation", "experiment", "given_up"):
+        del content[key]
+    for candidate in content["candidates"]:
+        del candidate["judgement"]
+    (tmp_path / DIAGNOSIS).write_text(json.dumps(content))
+    responses = pd.read_csv(tmp_path / RESPONSES)
+    responses[responses["role"] == "held-out"].to_csv(tmp_path / RESPONSES, index=False)
+    text = _plain(write_diagnosis_page(tmp_path).read_text(encoding="utf-8"))
+    assert "bouc-wen lacks input-lag or its like" in text
+    assert "input-lag adopted" in text
+    assert "transport-delay tied" in text
+    assert "other (held-out)" in text
+    assert "2 more records are not drawn" in text
+
+
+def test_a_folder_without_a_diagnosis_is_the_users_fault(tmp_path):
+    with pytest.raises(UserError, match=r"diagnosis\.json"):
+        write_diagnosis_page(tmp_path)
+
+
+def test_what_only_describes_is_not_named_in_the_title(tmp_path, diagnosis):
+    model = replace(diagnosis.model, effects=("input-lag", "description"))
+    described = replace(diagnosis, effects=("input-lag", "description"), ties=(), model=model)
+    assert "bouc-wen lacks input-lag " in _plain(_written(tmp_path, described))
+
+
+def test_a_long_record_is_kept_as_finely_as_a_figure_shows(tmp_path, diagnosis):
+    one = diagnosis.responses[diagnosis.responses["record"] == "slow"]
+    long = pd.concat([one] * 20, ignore_index=True)
+    _written(tmp_path, replace(diagnosis, responses=long))
+    kept = pd.read_csv(tmp_path / RESPONSES)
+    assert len(kept) == DRAWN
+    assert kept["time"].iloc[-1] == long["time"].iloc[-1]

@@ -2,7 +2,6 @@
 
 import io
 import re
-from html.parser import HTMLParser
 
 import numpy as np
 import pandas as pd
@@ -12,18 +11,18 @@ from rich.console import Console
 from hysteresis_bench import stats
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.report.fit.page import write_fit_page
 from hysteresis_bench.report.paper.claims import FAILS, HOLDS, UNDECIDED, judge
 from hysteresis_bench.report.paper.published import check_published
-from hysteresis_bench.report.shared.page import number, percent, probability, whole
+from hysteresis_bench.report.searches.looks import SHOWN, choose, floors
+from hysteresis_bench.report.shared.text import number, percent, probability, whole
 from hysteresis_bench.report.shared.theme import spread_labels
 from hysteresis_bench.report.study import summarise, write_report
 from hysteresis_bench.report.study.console import print_summary
-from hysteresis_bench.report.study.figures import SHOWN, choose
-from hysteresis_bench.report.study.summary import at_iterations, problems
 from hysteresis_bench.report.study.words import answer
+from hysteresis_bench.report.trials.summary import at_iterations, problems
 from hysteresis_bench.study.results import read_results
 from hysteresis_bench.study.store import Outcome, Store
+from tests.report.links import parsed
 from tests.synthetic_study import OPTIMIZERS, PROBLEMS, write_results
 
 LINEAR = PROBLEMS[0]
@@ -120,9 +119,9 @@ def test_with_few_trials_nothing_is_claimed(tmp_path):
     few = read_results(write_results(tmp_path, trials=3))
     judged = judge(check_published(few.published), problems(few))
     assert {found.verdict for found in judged} == {UNDECIDED}
-    told = " ".join(answer(problems(few), summarise(few), judged))
-    assert "too few trials to tell" in told
-    assert "apart from each of the other" not in told
+    sentences = " ".join(answer(problems(few), summarise(few), judged))
+    assert "too few trials to tell" in sentences
+    assert "apart from each of the other" not in sentences
     assert summarise(few)["p_best"].isna().all()
 
 
@@ -132,36 +131,17 @@ def test_those_who_cannot_be_told_apart_are_named(results):
     for label in tied:  # everybody as good as the winner
         problem.rows[label]["fitness"] = problem.rows[problem.winner]["fitness"].to_numpy()
         problem.rows[label]["status"] = "done"
-    told = answer([problem], summarise(results), [])[0]
-    assert "We cannot tell it apart from" in told
+    sentence = answer([problem], summarise(results), [])[0]
+    assert "We cannot tell it apart from" in sentence
     assert set(problem.tied_with_winner) == set(tied)
 
 
 def test_few_are_drawn_and_the_reference_is_among_them(results):
-    looks = choose(problems(results), "pso", ["pso", "mpso"])
+    looks = choose(problems(results), "pso", ["pso", "mpso"], floor=floors(results.study))
     assert len(looks) <= SHOWN
     assert list(looks)[:2] == ["pso", "mpso"]
     assert {"random-search", problems(results)[0].winner} <= set(looks)
     assert len({look.colour for look in looks.values()}) == len(looks)
-
-
-class Links(HTMLParser):
-    def __init__(self):
-        super().__init__()
-        self.sources, self.ids, self.texts = [], [], []
-
-    def handle_starttag(self, tag, attributes):
-        for key, value in attributes:
-            if key in ("src", "href", "xlink:href", "srcset", "data"):
-                self.sources.append(value)
-            if key == "id":
-                self.ids.append(value)
-
-
-def parsed(html):
-    links = Links()
-    links.feed(html)
-    return links
 
 
 def test_the_page_has_every_section_and_needs_nothing_else(folder, page):
@@ -240,6 +220,14 @@ def test_a_study_where_everything_failed_has_a_report_too(tmp_path):
     assert "exit code 7" in page
 
 
+def test_a_folder_without_trials_is_the_users_fault(tmp_path):
+    write_results(tmp_path, trials=1)
+    (tmp_path / "trials.sqlite").unlink()
+    (tmp_path / "trials.csv").unlink()
+    with pytest.raises(UserError, match="holds no trials"):
+        write_report(tmp_path)
+
+
 def test_a_faulty_published_file_is_the_users_fault(tmp_path):
     write_results(tmp_path, trials=1)
     (tmp_path / "published.toml").write_text("claims = []\n", encoding="utf-8")
@@ -284,60 +272,3 @@ def test_labels_keep_their_distance_and_their_order():
     assert sorted(places) == [places[i] for i in (3, 0, 1, 2)]
     assert np.diff(sorted(places)).min() >= 0.1 - 1e-12
     assert max(places) <= 1.0
-
-
-FIT = {
-    "title": "A <fit>",
-    "model": "jiles-atherton",
-    "effects": ["bias"],
-    "units": {"time": "s", "input": "A/m", "output": "T"},
-    "parameters": [
-        {"name": "a", "value": 31.2, "standard_error": 0.4, "unit": "A/m", "at_bound": False},
-        {"name": "k", "value": 9.1, "standard_error": None, "unit": "A/m", "at_bound": True},
-    ],
-    "records": [
-        {"record": "one/1", "role": "fitted", "rmse": 0.003, "relative_rms": 0.004, "max_error": 0.06},
-        {"record": "two", "role": "held-out", "rmse": 0.03, "relative_rms": 0.2, "max_error": 0.3},
-    ],
-    "notes": ["a note"],
-    "warnings": ["a warning"],
-    "provenance": {"seed": 1, "versions": {"numpy": "2"}},
-    "agreement": "Two searches agree.",
-}
-
-
-def fit_responses():
-    time = np.arange(50.0)
-    drive = np.sin(time)
-    return pd.concat(
-        pd.DataFrame(
-            {"record": record, "role": role, "time": time, "input": drive, "output": drive, "simulated": 0.9 * drive}
-        )
-        for record, role in (("one/1", "fitted"), ("two", "held-out"))
-    )
-
-
-def test_the_page_of_a_fit_says_how_good_it_is(tmp_path):
-    page = write_fit_page(tmp_path, FIT, fit_responses())
-    html = page.read_text(encoding="utf-8")
-    text = re.sub(r"<[^>]+>", " ", html)
-    for wanted in (
-        "very good",
-        "poor",
-        "Two searches agree.",
-        "a warning",
-        "a note",
-        "31.2",
-        "A/m",
-    ):
-        assert wanted in text
-    assert "A &lt;fit&gt;" in html
-    assert html.count("<figure>") == 4
-    links = parsed(html)
-    assert all((tmp_path / source).is_file() for source in links.sources if not source.startswith("#"))
-
-
-def test_a_fit_without_held_out_records_says_so(tmp_path):
-    fit = {**FIT, "records": FIT["records"][:1]}
-    html = write_fit_page(tmp_path, fit, fit_responses()).read_text(encoding="utf-8")
-    assert "No record was held out" in html

@@ -9,14 +9,14 @@ import pytest
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.kernels.second_order import second_order
 from hysteresis_bench.report.paper.published import Published, check_published
-from hysteresis_bench.report.study.stages_section import stage_views
+from hysteresis_bench.report.stages.section import stage_views
 from hysteresis_bench.study.afterwards.linear_section import regressed, unstable
 from hysteresis_bench.study.afterwards.stages import FITTED, LARGEST, RMSE, STAGED, run_stages
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.results import RESPONSES, STAGES, STUDY, read_results
 from hysteresis_bench.study.store import Store
 from hysteresis_bench.study.study_file import check_study, read_study
-from hysteresis_plugins.rigs.pea_noise_free import PUBLISHED
+from hysteresis_plugins.rigs.pea_known_truth import PUBLISHED
 
 LINEAR = {"b": 267_700.0, "c_over_m": 510.1069, "k_over_m": 255_700.0}
 
@@ -61,7 +61,7 @@ def trials(**changed):
 def staged(noise=0.0, rows=None):
     study = check_study(tomllib.loads(STUDY_TEXT.replace("NOISE", str(noise))), "t")
     built = {spec.name: build_problem(spec, study.seed, None) for spec in study.problem}
-    return run_stages(study, trials() if rows is None else rows, built, None)
+    return run_stages(study, trials() if rows is None else rows, built, folder=None)
 
 
 def section(table):
@@ -142,7 +142,7 @@ def test_an_unstable_section_is_a_flagged_row_and_no_number(tmp_path):
     text = text.replace('"static-sine"', '"data:slow"').replace('"sweep"', '"data:sweep"')
     study = check_study(tomllib.loads(text), "t")
     built = {spec.name: build_problem(spec, study.seed, tmp_path) for spec in study.problem}
-    table, responses = run_stages(study, trials(alpha=0.0, d=1.0), built, tmp_path)
+    table, responses = run_stages(study, trials(alpha=0.0, d=1.0), built, folder=tmp_path)
     mine = table[table["way"] == STAGED]
     assert mine["fault"].str.contains("unstable").all()
     assert mine[mine["quantity"].isin([LARGEST, RMSE])]["value"].isna().all()

@@ -4,7 +4,8 @@ import pytest
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.problems import closing_dataset
-from hysteresis_bench.study.study_file import duration, read_study
+from hysteresis_bench.study.strict import duration
+from hysteresis_bench.study.study_file import read_study
 
 GOOD = """
 title = "t"
@@ -34,6 +35,13 @@ def test_a_good_file_and_its_defaults(tmp_path):
     study = read(tmp_path, GOOD)
     assert (study.trials, study.budget, study.timeout, study.reference) == (3, 15050, 600.0, "pso")
     assert study.labels == ["pso"]
+
+
+def test_the_box_follows_the_data_where_there_are_data_files_as_in_a_fit(tmp_path):
+    on_rig = 'rig = "sma"\nfitted = ["pwm-60s"]'
+    assert read(tmp_path, GOOD).problem[0].box == "data"
+    assert read(tmp_path, GOOD.replace('data = ["a.csv"]', on_rig)).problem[0].box == "model"
+    assert read(tmp_path, GOOD.replace("data =", 'box = "model"\ndata =')).problem[0].box == "model"
 
 
 @pytest.mark.parametrize(("text", "seconds"), [("10 min", 600), ("90 s", 90), ("1.5h", 5400), (12, 12)])
@@ -88,6 +96,12 @@ settings = { particels = 10 }
     [
         (("[[optimizer]]", '[[optimizer]]\nplugin = "pso"\n[[optimizer]]'), 'two [[optimizer]] are both called "pso"'),
         (('plugin = "pso"', 'plugin = "pso"\nsettings = { particles = "many" }'), "particles = 'many'"),
+        (('plugin = "pso"', 'plugin = "pso"\nsettings = 3'), "[[optimizer]] 1 settings: input should be a valid dict"),
+        (('data = ["a.csv"]', 'data = ["a.csv"]\nbounds = 3'), "[[problem]] 1 bounds: input should be a valid dict"),
+        (
+            ('data = ["a.csv"]', 'data = ["a.csv"]\neffects = "bias"'),
+            "1 effects: input should be a valid list",
+        ),
         (('plugin = "pso"', 'plugin = "faulty-missing"'), "is broken"),
         (('plugin = "pso"', 'plugin = "faulty-abstract"'), "Abstract lacks search"),
         (('plugin = "pso"', 'plugin = "faulty-alien"'), "does not keep the contract Optimizer"),

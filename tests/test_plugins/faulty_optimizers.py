@@ -3,12 +3,14 @@
 import contextlib
 import os
 import time
+from dataclasses import dataclass
 
 import numpy as np
 
 from hysteresis_bench.contracts import Optimizer
 
 
+@dataclass(frozen=True)
 class Raises(Optimizer):
     """Raises after a few evaluations."""
 
@@ -17,6 +19,7 @@ class Raises(Optimizer):
         raise ZeroDivisionError("the swarm has no diameter")
 
 
+@dataclass(frozen=True)
 class Returns(Optimizer):
     """Returns after seven evaluations."""
 
@@ -24,6 +27,7 @@ class Returns(Optimizer):
         objective.many(start(7))
 
 
+@dataclass(frozen=True)
 class Empty(Optimizer):
     """Returns at once."""
 
@@ -31,6 +35,7 @@ class Empty(Optimizer):
         pass
 
 
+@dataclass(frozen=True)
 class Outside(Optimizer):
     """Proposes a point outside the box."""
 
@@ -38,6 +43,7 @@ class Outside(Optimizer):
         objective(np.full(objective.dimension, 1.5))
 
 
+@dataclass(frozen=True)
 class Hangs(Optimizer):
     """Never returns."""
 
@@ -47,6 +53,7 @@ class Hangs(Optimizer):
             time.sleep(1)
 
 
+@dataclass(frozen=True)
 class Dies(Optimizer):
     """Takes its process with it."""
 
@@ -54,6 +61,7 @@ class Dies(Optimizer):
         os._exit(7)
 
 
+@dataclass(frozen=True)
 class Greedy(Optimizer):
     """Asks for more memory than there is."""
 
@@ -61,6 +69,7 @@ class Greedy(Optimizer):
         np.ones((1 << 40,))
 
 
+@dataclass(frozen=True)
 class Stubborn(Optimizer):
     """Catches everything that is an Exception and goes on."""
 
@@ -70,6 +79,7 @@ class Stubborn(Optimizer):
                 objective.many(rng.random((objective.dimension, 16)))
 
 
+@dataclass(frozen=True)
 class Abstract(Optimizer):
     """Has no search."""
 

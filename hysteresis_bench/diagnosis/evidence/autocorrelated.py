@@ -72,7 +72,8 @@ def correlations(errors: Parts) -> Array:
     for error in errors:
         power = np.abs(np.fft.rfft(error, 2 * error.size)) ** 2
         total += np.fft.irfft(power)[:length]
-    return total / total[0] if total[0] > 0 else np.eye(1, length)[0]
+    found: Array = total / total[0] if total[0] > 0 else np.eye(1, length)[0]
+    return found
 
 
 def effective_samples(errors: Parts) -> float:
@@ -136,7 +137,8 @@ def split(joined: Array, like: Parts) -> list[Array]:
 def left_over(e: Array, columns: Array) -> Array:
     """What least squares leaves of e."""
     basis = _basis(columns)
-    return e - basis @ (basis.T @ e)
+    left: Array = e - basis @ (basis.T @ e)
+    return left
 
 
 def _squares(e: Array, columns: Array) -> tuple[float, int]:

@@ -15,23 +15,10 @@ RESOLUTION = 2e-3
 
 def turning_points(u: Array, resolution: float) -> Array:
     """Samples at which the input turns by more than `resolution` (unit of u); int64[reversals]."""
-    turns: list[int] = []
-    values = u.tolist()
-    high = low = heading = 0
-    for i, value in enumerate(values):
-        if heading >= 0 and value > values[high]:
-            high = i
-        if heading <= 0 and value < values[low]:
-            low = i
-        if heading >= 0 and values[high] - value > resolution:
-            if heading > 0:
-                turns.append(high)
-            heading, low = -1, i
-        elif heading <= 0 and value - values[low] > resolution:
-            if heading < 0:
-                turns.append(low)
-            heading, high = 1, i
-    return np.array(turns, dtype=np.int64)
+    from hysteresis_bench.kernels.turning_points import turning_points as compiled
+
+    turns: Array = compiled(np.ascontiguousarray(u, dtype=float), resolution)
+    return turns
 
 
 def resolution_of(u: Array, noise_rms: float = 0.0) -> float:
@@ -58,36 +45,23 @@ def cycle(samples: int, turns: Array) -> Array:
 
 
 def play(u: Array, radius: float) -> Array:
-    """Play operator of half-width `radius` (unit of u), p_i = max(u_i - r, min(u_i + r, p_{i-1})), p_0 = u_0."""
-    out = np.empty(u.size)
-    position = float(u[0])
-    for i, value in enumerate(u.tolist()):
-        position = max(value - radius, min(value + radius, position))
-        out[i] = position
-    return out
+    """Play operator of half-width `radius` (unit of u) that starts at u_0, in the middle of its dead band."""
+    from hysteresis_bench.kernels.play import play as compiled
+
+    position: Array = compiled(np.ascontiguousarray(u[:, None], dtype=float), np.array([radius]))[:, 0]
+    return position
 
 
 def low_pass(time: Array, u: Array, constant: float) -> Array:
     """First-order lag of time constant `constant`, exact for a piecewise linear input, at rest with u_0.
 
     u : (samples,) or (samples, columns) -> the same
-    tau x' + x = u; over a step h with slope s the exact answer is
-    x_1 = u_1 - s tau + (x_0 - u_0 + s tau) exp(-h / tau).
     """
-    steps = np.diff(time).reshape((-1,) + (1,) * (u.ndim - 1))
-    rises = np.diff(u, axis=0) / steps * constant
-    decays = np.exp(-steps / constant)
-    gains = u[1:] - rises + (rises - u[:-1]) * decays
-    out = np.array(u, dtype=float)
-    if np.ptp(steps) < 1e-6 * steps.flat[0]:
-        from scipy.signal import lfilter
+    from hysteresis_bench.kernels.lag import lag
 
-        decay = float(decays.flat[0])
-        out[1:] = lfilter([1.0], [1.0, -decay], gains, axis=0, zi=decay * out[:1])[0]
-        return out
-    for i, gain in enumerate(gains):
-        out[i + 1] = gain + decays[i] * out[i]
-    return out
+    columns = np.ascontiguousarray(u.reshape(u.shape[0], -1), dtype=float)
+    late: Array = lag(time, columns, np.full(columns.shape[1], constant))
+    return late.reshape(u.shape)
 
 
 def delayed(time: Array, u: Array, delay: float) -> Array:

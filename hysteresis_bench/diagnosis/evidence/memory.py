@@ -20,9 +20,9 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.memoryless import Law, Spline, View, lagged_laws, own_delays, views_of
-from hysteresis_bench.diagnosis.evidence.noise import noise
-from hysteresis_bench.signals import Record
+from hysteresis_bench.diagnosis.evidence.blocks import blocked
+from hysteresis_bench.diagnosis.evidence.memoryless import Law, Spline, Thinned, lagged_laws, own_delays, thinned
+from hysteresis_bench.diagnosis.evidence.view import View
 
 MATERIAL = 0.005
 """Explained RMS, as a share of the output's range, from which branches matter."""
@@ -72,15 +72,16 @@ class Memory:
     words: str
 
 
-def memory(records: Sequence[Record]) -> Memory:
-    """Compare laws with and without branches on these records. Raises ValueError where one has no output."""
-    views = views_of(records)
+def memory(records: Sequence[View]) -> Memory:
+    """Compare laws with and without branches on these records."""
+    views = thinned(records)
     y = np.concatenate([view.y for view in views])
     span = max(float(np.ptp(view.y)) for view in views)
     still = tuple(0.0 for _ in views)
     if span == 0.0 or np.ptp(np.concatenate([view.u for view in views])) == 0.0:
         return Memory(False, 1.0, 0.0, 0.0, 0.0, 0.0, "constant", still, False, "a constant needs no hysteresis")
-    folds, blocks = _blocks(views)
+    sizes = [view.y.size for view in views]
+    blocks = blocked(sizes, [min(BLOCKS, max(FOLDS, size // 8)) for size in sizes], FOLDS)
     own = _own(views)
     level = y - own @ np.linalg.lstsq(own, y, rcond=None)[0]  # a drift is no part of what hysteresis is measured by
     span = max(float(np.ptp(part)) for part in np.split(level, np.cumsum([view.y.size for view in views])[:-1]))
@@ -88,7 +89,7 @@ def memory(records: Sequence[Record]) -> Memory:
     curve = np.vstack(spline.of(views, [view.u for view in views]))
 
     def errors(law: Law) -> Array:
-        return _left_out(np.hstack([own, *law.columns]), y, folds)
+        return _left_out(np.hstack([own, *law.columns]), y, blocks.fold)
 
     def score(law: Law) -> float:
         left = errors(law)
@@ -99,7 +100,7 @@ def memory(records: Sequence[Record]) -> Memory:
         return errors(law), law
 
     laws, lagged = [Law("static curve", still, [curve])], []
-    if all(record.timed for record in records):
+    if all(view.record.timed for view in records):
         laws.append(own_delays(views, spline))
         lagged = lagged_laws(views, spline, score)
     telling = _telling(views)
@@ -111,7 +112,7 @@ def memory(records: Sequence[Record]) -> Memory:
             for columns in _branches(views, spline)
         ]
     )
-    p = _no_better(branches, without, blocks)
+    p = _no_better(branches, without, blocks.block)
     rmse = [float(np.sqrt(np.mean(left**2))) for left in (static, without, branches)]
     explained = float(np.sqrt(max(rmse[1] ** 2 - rmse[2] ** 2, 0.0))) / span
     needed = p < LEVEL and explained > MATERIAL
@@ -119,7 +120,7 @@ def memory(records: Sequence[Record]) -> Memory:
     if needed and lagged and not telling:
         lag = float(np.sqrt(np.mean(best(lagged)[0] ** 2)))
         ambiguous = bool(np.sqrt(max(lag**2 - rmse[2] ** 2, 0.0)) / span < MATERIAL)
-    loud = float(np.sqrt(np.mean([noise(record).floor ** 2 for record in records])))
+    loud = float(np.sqrt(np.mean([view.noise.floor**2 for view in records])))
     unclear = not needed and rmse[1] > max(UNCLEAR * loud, MATERIAL * span)
     words = _words(needed, p, explained, law.name, rmse[1] / span, ambiguous, unclear)
     ambiguous = ambiguous or unclear
@@ -139,7 +140,7 @@ def _words(needed: bool, p: float, explained: float, law: str, left: float, ambi
     return f"{without}; branches predict no better (p = {p:.2g}): no hysteresis is needed"
 
 
-def _telling(views: Sequence[View]) -> bool:
+def _telling(views: Sequence[Thinned]) -> bool:
     """Do half-cycles differ in duration or height, so that lag and hysteresis draw different loops?"""
     whole = [view.turns for view in views if view.turns.size >= 2]
     if not whole:
@@ -149,14 +150,7 @@ def _telling(views: Sequence[View]) -> bool:
     return any(np.quantile(sizes, 0.9) > UNLIKE * np.quantile(sizes, 0.1) for sizes in (durations, heights))
 
 
-def _blocks(views: Sequence[View]) -> tuple[Array, Array]:
-    """Fold and block of every sample."""
-    blocks = [np.arange(view.y.size) * min(BLOCKS, max(FOLDS, view.y.size // 8)) // view.y.size for view in views]
-    folds = np.concatenate([(part + 2 * number) % FOLDS for number, part in enumerate(blocks)])
-    return folds, np.concatenate([part + BLOCKS * number for number, part in enumerate(blocks)])
-
-
-def _own(views: Sequence[View]) -> Array:
+def _own(views: Sequence[Thinned]) -> Array:
     """Each record's own offset and slope in time."""
     number = np.repeat(np.arange(len(views)), [view.y.size for view in views])
     inside = np.equal.outer(number, np.arange(len(views))).astype(float)
@@ -164,7 +158,7 @@ def _own(views: Sequence[View]) -> Array:
     return np.hstack([inside, inside * slope[:, None]])
 
 
-def _branches(views: Sequence[View], spline: Spline) -> list[list[Array]]:
+def _branches(views: Sequence[Thinned], spline: Spline) -> list[list[Array]]:
     """Several sets of columns that tell branches apart, from few to many."""
     simple, plays = [], []
     for view in views:

@@ -14,8 +14,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.noise import fast_noise
-from hysteresis_bench.signals import Record
+from hysteresis_bench.diagnosis.evidence.view import View
 
 INTERVALS = 14
 LAGS = 6
@@ -32,8 +31,12 @@ MOST = 3000
 
 
 @dataclass(frozen=True, eq=False)
-class View:
-    """A record with its history, and which of its samples count."""
+class Thinned:
+    """A record with its history, and which of its samples count.
+
+    time, u : (samples,) of the whole record;  keep : those that count;  y : the output there
+    turns : samples at which the input turns
+    """
 
     time: Array
     u: Array
@@ -61,17 +64,19 @@ class Law:
 Score = Callable[[Law], float]
 
 
-def views_of(records: Sequence[Record]) -> list[View]:
-    """The records, thinned to MOST counted samples. Raises ValueError where one has no output."""
-    """The records, thinned to MOST counted samples. Raises ValueError where one has no output."""
-    thin = max(1, -(-sum(record.measured.size for record in records) // MOST))
-    views = []
-    for record in records:
-        u, keep = record.input, np.arange(record.history, record.time.size, thin)
-        resolution = covariates.resolution_of(u, fast_noise(record.time, u)[0])
-        turns = covariates.turning_points(u, resolution)
-        views.append(View(record.time, u, record.measured[::thin], keep, turns))
-    return views
+def thinned(views: Sequence[View]) -> list[Thinned]:
+    """The records with MOST counted samples at most."""
+    every = max(1, -(-sum(view.y.size for view in views) // MOST))
+    return [
+        Thinned(
+            view.record.time,
+            view.record.input,
+            view.y[::every],
+            np.arange(view.record.history, view.record.time.size, every),
+            view.turns,
+        )
+        for view in views
+    ]
 
 
 class Spline:
@@ -85,7 +90,7 @@ class Spline:
     def scaled(self, values: Array) -> Array:
         return (values - self.middle) / self.half
 
-    def of(self, views: Sequence[View], inputs: Sequence[Array]) -> list[Array]:
+    def of(self, views: Sequence[Thinned], inputs: Sequence[Array]) -> list[Array]:
         """Columns of each record's counted samples; inputs : (samples,) a record."""
         from scipy.interpolate import BSpline
 
@@ -96,14 +101,13 @@ class Spline:
         return parts
 
 
-def delayed_curve(views: Sequence[View], spline: Spline, delays: Sequence[float]) -> Array:
-    """The spline of the input, each record's by its delay earlier; all records in one."""
+def delayed_curve(views: Sequence[Thinned], spline: Spline, delays: Sequence[float]) -> Array:
     """The spline of the input, each record's by its delay earlier; all records in one."""
     late = [covariates.delayed(view.time, view.u, delay) for view, delay in zip(views, delays, strict=True)]
     return np.vstack(spline.of(views, late))
 
 
-def lagged_laws(views: Sequence[View], spline: Spline, score: Score) -> list[Law]:
+def lagged_laws(views: Sequence[Thinned], spline: Spline, score: Score) -> list[Law]:
     """The best curve of the delayed input, of the lagged input, lagged curve, and curve with a resonance, alike for
     all records; and the curve of the input with each record's short delay. Each plus a spectrum of lags."""
     lags, still = lags_of(views), tuple(0.0 for _ in views)
@@ -148,7 +152,7 @@ def _refined(family: Callable[[float], Law], grid: Array, score: Score) -> Law:
     return min((family(float(np.exp(found.x))), family(float(grid[best]))), key=score)
 
 
-def _modes(view: View, frequency: float) -> Array:
+def _modes(view: Thinned, frequency: float) -> Array:
     """Position and velocity of second-order systems of this natural frequency (rad per unit of time) and several
     dampings, exact for a piecewise linear, evenly sampled input, at rest at first."""
     from scipy.signal import cont2discrete, lfilter
@@ -162,15 +166,14 @@ def _modes(view: View, frequency: float) -> Array:
     return np.column_stack(columns)
 
 
-def own_delays(views: Sequence[View], spline: Spline) -> Law:
-    """The curve of the input with each record's own short delay."""
+def own_delays(views: Sequence[Thinned], spline: Spline) -> Law:
     """The curve of the input with each record's own short delay."""
     delays = tuple(_own_delay(view) for view in views)
     columns = [delayed_curve(views, spline, delays)]
     return Law("curve of the input, each record with a short delay", delays, columns)
 
 
-def _own_delay(view: View) -> float:
+def _own_delay(view: Thinned) -> float:
     """The short delay that makes this record's output most nearly a curve of its input."""
     from scipy.optimize import minimize_scalar
 
@@ -186,7 +189,7 @@ def _own_delay(view: View) -> float:
     return float(minimize_scalar(left, bounds=(-limit, limit), method="bounded", options={"xatol": 1e-3 * limit}).x)
 
 
-def lags_of(views: Sequence[View]) -> Array:
+def lags_of(views: Sequence[Thinned]) -> Array:
     """The input through first-order lags, from a few samples to a third of the longest record."""
     shortest = 2.0 * float(np.median(np.concatenate([np.diff(view.time) for view in views])))
     longest = max(float(view.time[-1] - view.time[0]) for view in views) / 3.0

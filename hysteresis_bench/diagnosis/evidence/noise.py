@@ -109,9 +109,8 @@ def noise(record: Record) -> Noise:
     )
 
 
-def pooled_noise(records: Sequence[Record]) -> Noise:
-    """Noise of all records together: mean squares weighted by their samples."""
-    parts = [noise(record) for record in records]
+def pooled_noise(parts: Sequence[Noise]) -> Noise:
+    """Noise of all records together, from each one's: mean squares weighted by their samples."""
     samples = sum(part.samples for part in parts)
     weights = np.array([part.samples / samples for part in parts])
 

@@ -1,38 +1,19 @@
-"""The RMS error below which nothing is judged, and the noise that is left when a hum is taken out of it."""
+"""The RMS error below which nothing is judged."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 
 import numpy as np
 
 from hysteresis_bench.diagnosis.evidence.noise import Noise, unresolved
-from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
-from hysteresis_bench.signals import Record
+from hysteresis_bench.diagnosis.evidence.view import View
 
 FINEST = 5e-4
 """Share of the output's range below which an error is rounding and numerics, whatever the noise."""
 
-HUM = "periodic-disturbance"
 
-
-def floor_of(records: Sequence[Record], noise: Noise) -> float:
-    """RMS below which nothing is judged: noise, what lies between the samples, rounding."""
-    span = max(float(np.ptp(record.measured)) for record in records)
-    return max(float(np.hypot(noise.floor, unresolved(records))), FINEST * span)
-
-
-def without_hum(bench: Bench, trial: Trial) -> tuple[Record, ...]:
-    """The records without the periodic disturbance that was found."""
-    if HUM not in trial.names:
-        return bench.stack.records
-    silent = {f"{HUM}.{p.name}": p.null for p in bench.stack.effect(HUM).parameters if p.null is not None}
-    system, loud = bench.fitted(trial)
-    _, still = bench.fitted(replace(trial, values={**trial.values, **silent}))
-    both = np.column_stack([loud, still])
-    quiet = []
-    for record in bench.stack.records:
-        heard, unheard = system.simulate(record.signal, both).T
-        quiet.append(replace(record, output=record.output - (heard - unheard)))
-    return tuple(quiet)
+def floor_of(views: Sequence[View], noise: Noise) -> float:
+    """RMS below which nothing is judged: noise (pooled over the records), what lies between the samples, rounding."""
+    span = max(float(np.ptp(view.y)) for view in views)
+    return max(float(np.hypot(noise.floor, unresolved([view.record for view in views]))), FINEST * span)

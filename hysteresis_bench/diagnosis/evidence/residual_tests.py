@@ -12,15 +12,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates, spectrum
-from hysteresis_bench.diagnosis.evidence.noise import Noise, period
-from hysteresis_bench.signals import Record
+from hysteresis_bench.diagnosis.evidence.noise import period
+from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.stats import LEVEL, holm
 
 OVERALL = "all"
@@ -49,59 +48,17 @@ class ResidualTest:
         return self.corrected_p < LEVEL
 
 
-@dataclass(frozen=True, eq=False)
-class _View:
-    """A record's scored samples, and what may explain its residual; columns are (samples, any)."""
-
-    record: Record
-    residual: Array
-    noise: Noise
-
-    @cached_property
-    def u(self) -> Array:
-        return self.record.input[self.record.scored]
-
-    @cached_property
-    def time(self) -> Array:
-        return self.record.time[self.record.scored]
-
-    @cached_property
-    def turns(self) -> Array:
-        """Turning points of the whole input, history included, as samples of the scored part."""
-        u = self.record.input
-        turns = covariates.turning_points(u, covariates.resolution_of(u, self.noise.input_rms))
-        return turns - self.record.history
-
-    @cached_property
-    def rate(self) -> Array:
-        return np.gradient(self.u, self.time)
-
-    @property
-    def step(self) -> float:
-        return float(np.mean(np.diff(self.time)))
-
-    @property
-    def even(self) -> bool:
-        return bool(np.ptp(np.diff(self.time)) < 0.01 * self.step)
-
-    def scaled_input(self, low: float, high: float) -> Array:
-        return (2.0 * self.u - low - high) / (high - low)
-
-
-def residual_tests(
-    records: Sequence[Record], residuals: Sequence[Array], noises: Sequence[Noise]
-) -> list[ResidualTest]:
+def residual_tests(views: Sequence[View], residuals: Sequence[Array]) -> list[ResidualTest]:
     """Every test of every record, and of all together where there are several.
 
-    residuals : (scored samples,) a record, of either sign; noises : each record's, from `noise.noise`
+    residuals : (scored samples,) a record, of either sign
     """
-    views = [_View(*triple) for triple in zip(records, residuals, noises, strict=True)]
     found: list[ResidualTest] = []
-    for view in views:
-        if len(views) == 1 or view.residual.size >= FEWEST:
-            found += _tests(view.record.name, [view])
+    for view, residual in zip(views, residuals, strict=True):
+        if len(views) == 1 or residual.size >= FEWEST:
+            found += _tests(view.record.name, [view], [residual])
     if len(views) > 1:
-        found += _tests(OVERALL, views)
+        found += _tests(OVERALL, views, residuals)
     corrected = holm([test.p for test in found]) if found else []
     return [_told(replace(test, corrected_p=p)) for test, p in zip(found, corrected, strict=True)]
 
@@ -112,14 +69,13 @@ def _told(test: ResidualTest) -> ResidualTest:
     return replace(test, words=f"{verdict}the residual {test.words}{share}, p = {test.corrected_p:.2g}")
 
 
-def _tests(name: str, views: Sequence[_View]) -> Iterator[ResidualTest]:
+def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iterator[ResidualTest]:
     def test(kind: str, statistic: float, p: float, share: float, words: str) -> ResidualTest:
         return ResidualTest(name, kind, float(statistic), float(p), 1.0, float(np.clip(share, 0.0, 1.0)), words)
 
-    residuals = [view.residual for view in views]
     if all(np.ptp(part) == 0 and part[0] == 0 for part in residuals) or sum(part.size for part in residuals) < 16:
         return
-    yield test("noise-floor", *_noise_floor(views), "is larger than the noise in the data")
+    yield test("noise-floor", *_noise_floor(views, residuals), "is larger than the noise in the data")
     yield test("whiteness", *_whiteness(residuals), "is correlated from sample to sample")
     level = autocorrelated.f_test(residuals, autocorrelated.constants(residuals), level=False)
     yield test("offset", level.statistic, level.p, level.share, "has a mean that is not zero")
@@ -130,17 +86,16 @@ def _tests(name: str, views: Sequence[_View]) -> Iterator[ResidualTest]:
         answer = autocorrelated.f_test(_sizes(residuals), columns)
         yield test(kind, answer.statistic, answer.p, answer.share, words)
     if all(view.record.timed and view.even for view in views):
-        longest = max(views, key=lambda view: view.residual.size)
-        if longest.residual.size >= spectrum.FEWEST:
-            line = spectrum.line(longest.residual, longest.step)
+        longest, residual = max(zip(views, residuals, strict=True), key=lambda pair: pair[1].size)
+        if residual.size >= spectrum.FEWEST:
+            line = spectrum.line(residual, longest.step)
             words = f"has a spectral line at {line.frequency:.4g} Hz{_drive(longest, line.frequency)}"
             yield test("spectral-line", line.ratio, line.p, line.share, words)
-            yield test("coherence", *spectrum.coherence(longest.residual, longest.u), "follows the input linearly")
+            yield test("coherence", *spectrum.coherence(residual, longest.u), "follows the input linearly")
 
 
-def _noise_floor(views: Sequence[_View]) -> tuple[float, float, float]:
+def _noise_floor(views: Sequence[View], residuals: Sequence[Array]) -> tuple[float, float, float]:
     """Mean square over noise^2, an F ratio; both with the degrees of freedom that autocorrelation leaves."""
-    residuals = [view.residual for view in views]
     samples = np.array([part.size for part in residuals])
     square = sum(float(part @ part) for part in residuals) / samples.sum()
     floor = sum(n * view.noise.floor**2 for n, view in zip(samples, views, strict=True)) / samples.sum()
@@ -171,25 +126,23 @@ def _whiteness(residuals: Sequence[Array]) -> tuple[float, float, float]:
     return statistic, float(chi2.sf(statistic, freedom)) if freedom else 1.0, 1.0 - left / whole if whole else 0.0
 
 
-def _dependences(views: Sequence[_View]) -> Iterator[tuple[str, list[Array], list[Array] | None, str]]:
+def _dependences(views: Sequence[View]) -> Iterator[tuple[str, list[Array], list[Array] | None, str]]:
     """Name, columns in question, columns that may count anyhow, words."""
     low, high = min(float(view.u.min()) for view in views), max(float(view.u.max()) for view in views)
     if high <= low:
         return
-    x = [view.scaled_input(low, high) for view in views]
+    x = [_scaled(view.u, low, high) for view in views]
+    turns = [_scored_turns(view) for view in views]
     inputs = [legvander(part, 4)[:, 1:] for part in x]
     yield "input", inputs, None, "depends on the input"
-    directions = [covariates.branch(view.u, _inside(view.turns, view.u.size)) for view in views]
+    directions = [covariates.branch(view.u, _inside(own, view.u.size)) for view, own in zip(views, turns, strict=True)]
     yield "direction", [part[:, None] for part in directions], None, "differs between rising and falling input"
-    if any(view.turns.size for view in views):
-        past = [
-            part - (2.0 * view.record.input[_last(view)] - low - high) / (high - low)
-            for part, view in zip(x, views, strict=True)
-        ]
+    if any(own.size for own in turns):
+        past = [part - _scaled(view.record.input[_last(view)], low, high) for part, view in zip(x, views, strict=True)]
         columns = [np.column_stack([part, part * np.abs(part), np.abs(part)]) for part in past]
         yield "past-extrema", columns, inputs, "depends on where the input last turned"
-    if max(view.turns.size for view in views) >= 6:
-        cycles = [covariates.cycle(view.u.size, view.turns) for view in views]
+    if max(own.size for own in turns) >= 6:
+        cycles = [covariates.cycle(view.u.size, own) for view, own in zip(views, turns, strict=True)]
         most = max(float(part.max()) for part in cycles)
         columns = [np.column_stack([part / most, part / most * inner]) for part, inner in zip(cycles, x, strict=True)]
         yield "cycle", columns, inputs, "changes from cycle to cycle"
@@ -215,7 +168,7 @@ def _dependences(views: Sequence[_View]) -> Iterator[tuple[str, list[Array], lis
             yield "temperature", columns, inputs, "depends on the temperature"
 
 
-def _scatters(views: Sequence[_View]) -> Iterator[tuple[str, list[Array], str]]:
+def _scatters(views: Sequence[View]) -> Iterator[tuple[str, list[Array], str]]:
     middle = 0.5 * (min(float(view.u.min()) for view in views) + max(float(view.u.max()) for view in views))
     yield (
         "scatter-input",
@@ -243,17 +196,27 @@ def _sizes(residuals: Sequence[Array]) -> list[Array]:
     ]
 
 
+def _scaled(u: Array, low: float, high: float) -> Array:
+    """-1 at the lowest, 1 at the highest input of all records."""
+    return (2.0 * u - low - high) / (high - low)
+
+
+def _scored_turns(view: View) -> Array:
+    """Turning points of the whole input, history included, as samples of the scored part."""
+    return view.turns - view.record.history
+
+
 def _inside(turns: Array, samples: int) -> Array:
     return turns[(turns > 0) & (turns < samples - 1)]
 
 
-def _last(view: _View) -> Array:
+def _last(view: View) -> Array:
     """Index, in the whole record, of the last turning point before each scored sample."""
-    turns = np.concatenate([[0], view.turns + view.record.history])
+    turns = np.concatenate([[0], view.turns])
     return turns[np.searchsorted(turns, np.arange(view.record.history, view.record.input.size), side="right") - 1]
 
 
-def _drive(view: _View, frequency: float) -> str:
+def _drive(view: View, frequency: float) -> str:
     """What the line has to do with a periodic input."""
     lag = period(view.u)
     if lag is None:

@@ -13,7 +13,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.fit.combinations import listed
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.signals import Record, Signal
 
 SAMPLES = 2000

@@ -1,117 +1,109 @@
-"""What the search found, as the result tells it: ties, rounds, rows of candidates, the waterfall of errors."""
+"""Every effect that was considered, and every step of the search, as a table shows them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.findings.description import NAME
-from hysteresis_bench.diagnosis.findings.result import Candidate, Stage, Step
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
-from hysteresis_bench.diagnosis.findings.ties import Tie, tie
-from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
-from hysteresis_bench.diagnosis.search.selection import Selection
-from hysteresis_bench.diagnosis.search.systems import OFFSETS
+from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.diagnosis.search.selection import Round
 
 
-def ties_of(selection: Selection, found: Trial) -> tuple[tuple[Tie, ...], list[Trial]]:
-    """Every adopted effect against what would do as well in its place."""
-    ties, rivals = [], []
-    for name in selection.adopted(found):
-        for rival, trial in selection.alternatives(found, name).items():
-            if selection.tied(found, trial):
-                ties.append(tie(name, rival, found.apart(trial)))
-                rivals.append(trial)
-    return tuple(ties), rivals
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """An effect that was considered, on top of the final system; an adopted one, against the system without it.
+
+    p : of the nested-model test, not corrected;  advantage : standard errors by which it won on blocks left out
+    share : of the mean square left over the noise without it, what it explains
+    cv_rmse : NaN where it is not applicable, for the `reason`;  parameters : its own, in units
+    """
+
+    effect: str
+    applicable: bool
+    reason: str = ""
+    adopted: bool = False
+    rmse: float = float("nan")
+    cv_rmse: float = float("nan")
+    p: float = float("nan")
+    advantage: float = float("nan")
+    parameters: Mapping[str, float] | None = None
+    at_bound: tuple[str, ...] = ()
+    tied_with: tuple[str, ...] = ()
+    share: float = float("nan")
 
 
-def step_of(selection: Selection, number: int) -> Step:
-    at = selection.rounds[number]
+@dataclass(frozen=True)
+class Step:
+    """One step of the search: what was there, what each candidate made of it, what was taken.
+
+    cv_rmse : by candidate
+    """
+
+    names: tuple[str, ...]
+    rmse: float
+    cv_rmse: Mapping[str, float]
+    p: Mapping[str, float]
+    chosen: str
+
+
+def step_of(at: Round) -> Step:
     return Step(
         tuple(sorted(at.current.names)),
         at.current.rmse,
-        {name: trial.cv_rmse for name, trial in at.trials.items()},
+        {name: hypothesis.cv_rmse for name, hypothesis in at.hypotheses.items()},
         {name: test.p for name, test in at.tests.items()},
         at.chosen,
     )
 
 
-def candidate_rows(
-    selection: Selection, found: Trial, impossible: Mapping[str, str], ties: Sequence[Tie]
-) -> tuple[Candidate, ...]:
-    rows = []
-    last = selection.rounds[-1]
-    for name in selection.candidates:
-        adopted = name in found.names
-        smaller, larger = (selection.without(found, name), found) if adopted else (last.current, last.trials.get(name))
-        if larger is None:
-            continue
-        test, gain = selection.compared(smaller, larger)
-        rows.append(
-            Candidate(
-                name,
-                True,
-                adopted=adopted,
-                rmse=larger.rmse,
-                cv_rmse=larger.cv_rmse,
-                p=test.p,
-                advantage=gain,
-                share=float(np.clip(selection.share(smaller, larger), 0.0, 1.0)),
-                parameters={
-                    key.removeprefix(f"{name}."): value
-                    for key, value in larger.values.items()
-                    if key.startswith(f"{name}.")
-                },
-                at_bound=tuple(key for key in larger.at_bound if key.startswith(f"{name}.")),
-                tied_with=tuple(
-                    one.rival if one.effect == name else one.effect for one in ties if name in (one.effect, one.rival)
-                ),
-            )
-        )
+def candidates_of(found: Found, ties: Sequence[Tie]) -> tuple[Candidate, ...]:
+    """Adopted ones first, then by the error on blocks left out; what cannot be tried at the end."""
+    rows = [row for name in found.selection.candidates if (row := _candidate(found, name, ties))]
     rows.sort(key=lambda row: (not row.adopted, row.cv_rmse))
-    return (*rows, *(Candidate(name, False, reason) for name, reason in impossible.items()))
+    return (*rows, *(Candidate(name, False, reason) for name, reason in found.impossible.items()))
+
+
+def _candidate(found: Found, name: str, ties: Sequence[Tie]) -> Candidate | None:
+    last, adopted = found.selection.rounds[-1], name in found.best.names
+    smaller = found.without[name] if adopted else last.current
+    larger = found.best if adopted else last.hypotheses.get(name)
+    if larger is None:
+        return None
+    test, gain = found.selection.compared(smaller, larger)
+    prefix = f"{name}."
+    return Candidate(
+        name,
+        True,
+        adopted=adopted,
+        rmse=larger.rmse,
+        cv_rmse=larger.cv_rmse,
+        p=test.p,
+        advantage=gain,
+        share=float(np.clip(found.selection.share(smaller, larger), 0.0, 1.0)),
+        parameters={key.removeprefix(prefix): v for key, v in larger.values.items() if key.startswith(prefix)},
+        at_bound=tuple(key for key in larger.at_bound if key.startswith(prefix)),
+        tied_with=tuple(
+            one.rival if one.effect == name else one.effect for one in ties if name in (one.effect, one.rival)
+        ),
+    )
 
 
 def description_row(equation: Equation, before: Stage) -> Candidate:
     """What an accepted description did; p of its least significant term."""
     left_out = before.fitted.rmse * float(np.sqrt(max(1.0 - equation.share, 0.0)))
-    coefficients = {part.term.symbol: part.coefficient for part in equation.terms}
-    worst = max(part.p for part in equation.terms)
     return Candidate(
-        NAME,
+        registry.DESCRIPTION,
         True,
         adopted=True,
         rmse=left_out,
         cv_rmse=left_out,
-        p=worst,
+        p=max(part.p for part in equation.terms),
         share=equation.share,
-        parameters=coefficients,
+        parameters={part.term.symbol: part.coefficient for part in equation.terms},
     )
-
-
-def in_order(selection: Selection, base: Trial, found: Trial) -> list[tuple[str, Trial]]:
-    """The adopted effects, the one that helps most first, each with the system that it completes."""
-    current, steps = base, []
-    while left := found.names - current.names:
-        names = sorted(left)
-        current, best = min(zip(selection.with_each(current, names), names, strict=True), key=lambda pair: pair[0].rmse)
-        steps.append((best, current))
-    return steps
-
-
-def waterfall_of(
-    full: Bench, model: str, before: Stage, steps: Sequence[tuple[str, Trial]], final: Trial, after: Stage
-) -> tuple[tuple[str, float], ...]:
-    """Label and RMSE on all fitted samples, from the bare model to the final system, all with the same offset."""
-    offsets = frozenset(before.names) & {*OFFSETS}
-    label = f"{model} with a bias" if "bias" in offsets else f"{model} alone"
-    bars = [(label, before.fitted.rmse)]
-    for name, trial in steps[:-1]:
-        same = replace(trial, names=(trial.names - {*OFFSETS}) | offsets, values={**final.values, **trial.values})
-        left = full.errors(same.names, full.polished(same))
-        bars.append((name, float(np.sqrt(np.mean(left**2)))))
-    if steps or after is not before:
-        bars.append((steps[-1][0] if steps else "bias", after.fitted.rmse))
-    return tuple(bars)

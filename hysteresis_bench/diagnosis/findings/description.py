@@ -14,8 +14,6 @@ from hysteresis_bench.diagnosis.findings.terms import Equation, Term
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 
-NAME = "description"
-
 
 @dataclass(frozen=True)
 class Description(Effect):
@@ -27,6 +25,9 @@ class Description(Effect):
         none changes nothing
     """
 
+    acts = "added"
+    family = "law"
+    nuisance = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     terms: tuple[dict[str, Any], ...] = ()

@@ -17,6 +17,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates
+from hysteresis_bench.diagnosis.evidence.blocks import blocked
 from hysteresis_bench.signals import Record
 
 LEVEL = 0.01
@@ -78,7 +79,7 @@ class Term:
         if self.kind == "lag":
             return covariates.low_pass(time, x, self.value) - x
         if self.kind in ("time", "log time"):
-            elapsed = time - time[0]
+            elapsed: Array = time - time[0]
             return elapsed if self.kind == "time" else np.log1p(elapsed / self.value)
         turns = covariates.turning_points(u, self.resolution)
         if self.kind in ("branch", "branch u"):
@@ -264,8 +265,7 @@ def _share(residuals: Sequence[Array], columns: Sequence[Array], chosen: Sequenc
     """Of the variance about each record's mean, explained on blocks left out."""
     if not chosen:
         return 0.0
-    blocks = [np.arange(part.size) * BLOCKS // part.size for part in residuals]
-    fold = np.concatenate([(part + 2 * number) % FOLDS for number, part in enumerate(blocks)])
+    fold = blocked([part.size for part in residuals], [BLOCKS] * len(residuals), FOLDS).fold
     e, one = np.concatenate(list(residuals)), np.vstack(autocorrelated.constants(residuals))
     x = np.hstack([one, np.vstack(columns)[:, list(chosen)]])
 

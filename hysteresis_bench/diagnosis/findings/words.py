@@ -3,52 +3,78 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
-from hysteresis_bench.contracts import Model
-from hysteresis_bench.diagnosis.evidence.noise import Noise
-from hysteresis_bench.diagnosis.findings.description import NAME as DESCRIPTION
-from hysteresis_bench.diagnosis.findings.result import Stage, Verdict
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.evidence.evidence import Evidence
+from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis.search.hypotheses import Trial
-from hysteresis_bench.fit.combinations import listed
-from hysteresis_bench.signals import Record
+from hysteresis_bench.diagnosis.search.fallback import Fallback
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.fit.identifiability.combinations import listed
 
 WRONG = 2.0
 """Times the noise that the final system may leave before its names are doubted."""
 
 
-def headline(
-    verdict: Verdict,
-    adopted: Sequence[str],
-    alone: bool,
-    before: Stage,
-    after: Stage,
-    noise: Noise,
-    floor: float,
-    ties: Sequence[Tie],
-    units: Mapping[str, str],
-) -> str:
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What is to be told: both ends, what was adopted on the way, and whether something remains.
+
+    remains : structure that matters is left in the residual;  units : of the output, as the records have it
+    """
+
+    before: Stage
+    after: Stage
+    adopted: tuple[str, ...]
+    found: Found
+    ties: Sequence[Tie]
+    remains: bool
+    units: Mapping[str, str]
+
+    @property
+    def evidence(self) -> Evidence:
+        return self.found.evidence
+
+    @property
+    def carries_over(self) -> bool:
+        """Does what was adopted also help where it was not fitted? True where nothing was held out."""
+        before, after = self.before.held_out, self.after.held_out
+        return before is None or after is None or after.rmse <= before.rmse
+
+    @property
+    def unexplained(self) -> bool:
+        return self.remains or not self.found.follows or not self.carries_over
+
+    @property
+    def doubted(self) -> bool:
+        """Is so much left that the names may stand in for what is wrong with the law?"""
+        return self.after.fitted.rmse > WRONG * self.evidence.floor
+
+
+def headline(outcome: Outcome) -> str:
     """The verdict, with the error before and after; an effect that is tied is never named alone, and one beside
     which much more than the noise is left is named with a doubt."""
-    unit = "" if units.get("output", "1") == "1" else f" {units['output']}"
+    before, after = outcome.before, outcome.after
+    unit = "" if outcome.units.get("output", "1") == "1" else f" {outcome.units['output']}"
     first, last = (stage.held_out or stage.fitted for stage in (before, after))
     where = "on what was held out" if after.held_out else "on what was fitted"
-    if alone:
+    if not outcome.found.follows:
         return "The output does not follow the input: the model explains less than half of it, and no effect is named."
-    effects = [name for name in adopted if name != DESCRIPTION]
+    effects = [name for name in outcome.adopted if name != registry.DESCRIPTION]
     if effects:
-        named = listed([_or_its_rivals(name, ties) for name in effects])
+        named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         moves = "falls" if last.rmse < first.rmse else "does NOT fall, it goes"
-        lacks = "may lack" if after.fitted.rmse > WRONG * floor else "lacks"
-        found = f"The model {lacks} {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
+        lacks = "may lack" if outcome.doubted else "lacks"
+        said = f"The model {lacks} {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
     else:
-        found = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
-    told = f"{found}; the noise is {noise.floor:.3g}."
-    if DESCRIPTION in adopted:
-        told += " Terms that describe what was left, without explaining it, have been added."
-    if verdict == "unexplained-residual":
-        told += " Something is left that no effect explains."
-    return told
+        said = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
+    said = f"{said}; the noise is {outcome.evidence.noise.floor:.3g}."
+    if registry.DESCRIPTION in outcome.adopted:
+        said += " Terms that describe what was left, without explaining it, have been added."
+    if outcome.unexplained:
+        said += " Something is left that no effect explains."
+    return said
 
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
@@ -56,40 +82,41 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
     return f"{name} (or {', '.join(rivals)}: these records cannot tell)" if rivals else name
 
 
-def carries_over(before: Stage, after: Stage) -> bool:
-    """Does what was adopted also help where it was not fitted? True where nothing was held out."""
-    return before.held_out is None or after.held_out is None or after.held_out.rmse <= before.held_out.rmse
+def _gave_up(fallback: Fallback) -> str:
+    were = "was" if len(fallback.dropped) == 1 else "were"
+    return (
+        f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the "
+        f"RMSE was {fallback.selected:.3g} with it and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
+    )
 
 
-def warnings(
-    model: Model,
-    records: Sequence[Record],
-    final: Trial,
-    after: Stage,
-    alone: bool,
-    floor: float,
-    noise: float,
-    ties: Sequence[Tie],
-) -> tuple[str, ...]:
-    """What a user must know before believing the names. floor : RMS from which anything is judged"""
-    told = list(model.advice(records)) if not final.names & {"bias", "record-offset"} else []
-    if after.fitted.rmse > WRONG * floor and not alone:
-        told.append(
+def warnings(outcome: Outcome) -> tuple[str, ...]:
+    """What a user must know before believing the names."""
+    found, final, after, floor = outcome.found, outcome.found.final, outcome.after, outcome.evidence.floor
+    records = found.full.stack.records
+    said = list(found.full.stack.model.advice(records)) if not final.names & {*registry.OFFSETS} else []
+    if found.given_up:
+        said.insert(0, _gave_up(found.given_up))
+    if not outcome.carries_over:
+        said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
+    if outcome.doubted and found.follows:
+        said.append(
             f"The final system still leaves {after.fitted.rmse / floor:.2g} times the noise: the model's own law does "
             "not follow these data, and what is named may stand in for that."
         )
-    if alone:
-        told.append("The output does not follow the input; whatever would fit it is no diagnosis.")
+    if not found.follows:
+        said.append("The output does not follow the input; whatever would fit it is no diagnosis.")
     for name in final.at_bound:
         effect = name.rpartition(".")[0]
-        said = f"{name} lies at the edge of its box ({final.values[name]:.4g})"
-        told.append(f"{said}: {effect} may stand in for something else." if effect else f"{said}.")
+        place = f"{name} lies at the edge of its box ({final.values[name]:.4g})"
+        said.append(f"{place}: {effect} may stand in for something else." if effect else f"{place}.")
     if len(records) == 1:
-        told.append(
+        said.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
         )
-    if noise < 0.5 * floor:  # what lies between the samples puts every floor a little above the noise
-        told.append("The data have next to no noise; below a few parts in ten thousand of the range nothing is judged.")
-    for one in ties:
-        told.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")
-    return tuple(told)
+    # what lies between the samples puts every floor a little above the noise
+    if outcome.evidence.noise.floor < 0.5 * floor:
+        said.append("The data have next to no noise; below a few parts in ten thousand of the range nothing is judged.")
+    for one in outcome.ties:
+        said.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")
+    return tuple(said)

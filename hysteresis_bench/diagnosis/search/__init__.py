@@ -1,1 +1,1 @@
-"""Hypotheses, a model with effects around it: fitted, tested, selected."""
+"""The search: which hypothesis do the data ask for, and does it hold on excitations left out?"""

@@ -13,13 +13,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.search.cross_validation import CLEAR, advantage
-from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
-from hysteresis_bench.diagnosis.search.nested_test import NestedTest
-from hysteresis_bench.diagnosis.search.workers import Crew
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""
@@ -57,10 +59,10 @@ MOST = 5
 
 @dataclass(frozen=True, eq=False)
 class Round:
-    """What was tried on top of `current`: trials and tests by candidate; `chosen` is empty where none passed."""
+    """What was tried on top of `current`: hypotheses and tests by candidate; `chosen` is empty where none passed."""
 
-    current: Trial
-    trials: Mapping[str, Trial]
+    current: Hypothesis
+    hypotheses: Mapping[str, Hypothesis]
     tests: Mapping[str, NestedTest]
     advantages: Mapping[str, float]
     chosen: str
@@ -73,16 +75,16 @@ class Selection:
     floor : RMS that a perfect model leaves;  candidates : names that can be tried
     """
 
-    bench: Bench
-    crew: Crew
+    fitter: Fitter
+    workers: Workers
     floor: float
     candidates: tuple[str, ...]
     rounds: list[Round] = field(default_factory=list)
-    known: dict[frozenset[str], Trial] = field(default_factory=dict)
+    known: dict[frozenset[str], Hypothesis] = field(default_factory=dict)
     sought: set[frozenset[str]] = field(default_factory=set)
     weighed: set[tuple[frozenset[str], str]] = field(default_factory=set)
 
-    def run(self, base: Trial) -> Trial:
+    def run(self, base: Hypothesis) -> Hypothesis:
         """From the bare model to the last adopted effect."""
         current = base
         visited = {current.names: current.rmse}
@@ -90,7 +92,7 @@ class Selection:
             found = self._round(current)
             self.rounds.append(found)
             if found.chosen and len(self.adopted(current)) < MOST:
-                better = self._settle(self.bench.refitted(found.trials[found.chosen]))
+                better = self._settle(self.fitter.refitted(found.hypotheses[found.chosen]))
             else:
                 better = self._exchanged(current) or self._paired(found) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
@@ -98,44 +100,51 @@ class Selection:
             current = better
             visited[current.names] = current.rmse
 
-    def adopted(self, trial: Trial) -> tuple[str, ...]:
-        return tuple(sorted(trial.names & set(self.candidates)))
+    def adopted(self, hypothesis: Hypothesis) -> tuple[str, ...]:
+        return tuple(sorted(hypothesis.names & set(self.candidates)))
 
-    def alternatives(self, current: Trial, name: str) -> dict[str, Trial]:
+    def alternatives(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
         """The systems with another effect in the place of an adopted one."""
         return self._sought(self._extensions(self.without(current, name), current))
 
-    def without(self, trial: Trial, name: str) -> Trial:
-        return self._reduced(trial, [name])[0]
+    def rivals(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
+        """What would do as well in the place of an adopted effect."""
+        others = self.alternatives(current, name)
+        return {rival: other for rival, other in others.items() if self.tied(current, other)}
 
-    def with_each(self, trial: Trial, names: Sequence[str]) -> list[Trial]:
-        return self._ask([("extended", trial, name) for name in names], [trial.names | {name} for name in names])
+    def without(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
+        return self._reduced(hypothesis, [name])[0]
 
-    def compared(self, smaller: Trial, larger: Trial) -> tuple[NestedTest, float]:
+    def with_each(self, hypothesis: Hypothesis, names: Sequence[str]) -> list[Hypothesis]:
+        return self._ask(
+            [("extended", hypothesis, name) for name in names], [hypothesis.names | {name} for name in names]
+        )
+
+    def compared(self, smaller: Hypothesis, larger: Hypothesis) -> tuple[NestedTest, float]:
         """The nested-model test, and by how many standard errors the larger system wins on blocks left out."""
-        return self.bench.test(smaller, larger), advantage(larger.left_out, smaller.left_out, self.bench.blocks)
+        return self.fitter.test(smaller, larger), advantage(larger.left_out, smaller.left_out, self.fitter.blocks)
 
-    def needed(self, smaller: Trial, larger: Trial, candidates: int = 1) -> bool:
+    def needed(self, smaller: Hypothesis, larger: Hypothesis, candidates: int = 1) -> bool:
         """Does the larger system pass the three tests against the smaller?"""
         return (
             smaller.rmse > MATTERS * max(larger.rmse, self.floor / MATTERS**2)
             and self.share(smaller, larger) > SHARE
-            and advantage(larger.left_out, smaller.left_out, self.bench.blocks) > CLEAR
-            and self.bench.test(smaller, larger).p * candidates < LEVEL
+            and advantage(larger.left_out, smaller.left_out, self.fitter.blocks) > CLEAR
+            and self.fitter.test(smaller, larger).p * candidates < LEVEL
         )
 
-    def share(self, smaller: Trial, larger: Trial) -> float:
+    def share(self, smaller: Hypothesis, larger: Hypothesis) -> float:
         """Of the mean square that the smaller system leaves over the noise, what the larger one explains."""
         excess = smaller.rmse**2 - self.floor**2
         return (smaller.rmse**2 - larger.rmse**2) / excess if excess > 0.0 else 1.0
 
-    def tied(self, one: Trial, other: Trial) -> bool:
+    def tied(self, one: Hypothesis, other: Hypothesis) -> bool:
         """Do the data not tell them apart?
 
         Where both leave much more than the noise, the difference of two wrong systems is no evidence, however
         significant: it has to be a good part of what is left.
         """
-        gain = advantage(one.left_out, other.left_out, self.bench.blocks)
+        gain = advantage(one.left_out, other.left_out, self.fitter.blocks)
         ratio = other.cv_rmse / one.cv_rmse if one.cv_rmse > 0 else 1.0
         apart = one.apart(other)
         worse, better = (one, other) if one.rmse > other.rmse else (other, one)
@@ -145,47 +154,51 @@ class Selection:
         # that a richer system is a little better is no evidence for it, however significant
         return similar and (abs(gain) < CLEAR or len(better.values) > len(worse.values))
 
-    def simplest(self, trials: Sequence[Trial]) -> Trial:
+    def simplest(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
         """Of the best and those tied with it, those with fewest parameters (what a model offers inside its state
         equation only where nothing around it does as well); of these, of the best and those tied with it, the
         alphabetically first."""
-        for key in (self._plainness, lambda trial: sorted(trial.names)):
-            best = min(trials, key=lambda trial: trial.cv_rmse)
-            alike = [trial for trial in trials if trial is best or self.tied(best, trial)]
+        for key in (self._plainness, lambda hypothesis: sorted(hypothesis.names)):
+            best = min(hypotheses, key=lambda hypothesis: hypothesis.cv_rmse)
+            alike = [hypothesis for hypothesis in hypotheses if hypothesis is best or self.tied(best, hypothesis)]
             least = min(map(key, alike))
-            trials = [trial for trial in alike if key(trial) == least]
-        return trials[0]
+            hypotheses = [hypothesis for hypothesis in alike if key(hypothesis) == least]
+        return hypotheses[0]
 
-    def _plainness(self, trial: Trial) -> list:
-        return [len(trial.at_bound) > 0, len(trial.values), len(trial.names & set(self.bench.stack.model.offers))]
+    def _plainness(self, hypothesis: Hypothesis) -> list[int]:
+        return [
+            len(hypothesis.at_bound) > 0,
+            len(hypothesis.values),
+            len(hypothesis.names & set(self.fitter.stack.model.offers)),
+        ]
 
-    def _round(self, current: Trial) -> Round:
-        trials = self._extensions(current)
-        if min((trial.rmse for trial in trials.values()), default=0.0) > MATTERS * self.floor:
-            trials = self._sought(trials)
-        tests = {name: self.bench.test(current, trial) for name, trial in trials.items()}
-        gains = {name: advantage(t.left_out, current.left_out, self.bench.blocks) for name, t in trials.items()}
-        passed = {name: t for name, t in trials.items() if self.needed(current, t, len(self.candidates))}
+    def _round(self, current: Hypothesis) -> Round:
+        hypotheses = self._extensions(current)
+        if min((hypothesis.rmse for hypothesis in hypotheses.values()), default=0.0) > MATTERS * self.floor:
+            hypotheses = self._sought(hypotheses)
+        tests = {name: self.fitter.test(current, hypothesis) for name, hypothesis in hypotheses.items()}
+        gains = {name: advantage(t.left_out, current.left_out, self.fitter.blocks) for name, t in hypotheses.items()}
+        passed = {name: t for name, t in hypotheses.items() if self.needed(current, t, len(self.candidates))}
         chosen = ""
         if passed:
             winner = self.simplest(list(passed.values()))
-            chosen = next(name for name, trial in passed.items() if trial is winner)
-        return Round(current, trials, tests, gains, chosen)
+            chosen = next(name for name, hypothesis in passed.items() if hypothesis is winner)
+        return Round(current, hypotheses, tests, gains, chosen)
 
-    def _paired(self, found: Round) -> Trial | None:
+    def _paired(self, found: Round) -> Hypothesis | None:
         """Two effects at once, where the model is wrong and no single one passes: what one of them leaves may hide
         the other."""
         current, count = found.current, len(self.candidates)
         if current.rmse < MISFIT * self.floor or len(self.adopted(current)) + 2 > MOST:
             return None
-        leaders = sorted(found.trials.values(), key=lambda trial: trial.cv_rmse)[:LEADERS]
+        leaders = sorted(found.hypotheses.values(), key=lambda hypothesis: hypothesis.cv_rmse)[:LEADERS]
         pairs = [pair for leader in leaders for pair in self._extensions(leader).values()]
-        best = min(pairs, key=lambda trial: trial.cv_rmse, default=current)
+        best = min(pairs, key=lambda hypothesis: hypothesis.cv_rmse, default=current)
         if not self.needed(current, best, count * (count - 1) // 2) or self.share(current, best) < NAMED:
             return None
-        return self._settle(self.bench.refitted(best))
+        return self._settle(self.fitter.refitted(best))
 
-    def _settle(self, current: Trial) -> Trial:
+    def _settle(self, current: Hypothesis) -> Hypothesis:
         """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
         for _ in range(2 * MOST):
             better = self._dropped(current)
@@ -196,99 +209,88 @@ class Selection:
             current = better
         return current
 
-    def _named(self, current: Trial) -> Trial:
+    def _named(self, current: Hypothesis) -> Hypothesis:
         """Without the effects that explain less than what is left beside them, the least telling first."""
         while names := self.adopted(current):
             smaller = self._reduced(current, names)
-            least = min(smaller, key=lambda trial: self.share(trial, current))
+            least = min(smaller, key=lambda hypothesis: self.share(hypothesis, current))
             if self.share(least, current) > NAMED:
                 break
             current = self._exchanged(least) or least
         return current
 
-    def _dropped(self, current: Trial) -> Trial | None:
+    def _dropped(self, current: Hypothesis) -> Hypothesis | None:
         names = self.adopted(current)
         if len(names) < 2:
             return None
         smaller = self._reduced(current, names)
-        spare = [trial for trial in smaller if not self.needed(trial, current)]
-        return min(spare, key=lambda trial: trial.cv_rmse) if spare else None
+        spare = [hypothesis for hypothesis in smaller if not self.needed(hypothesis, current)]
+        return min(spare, key=lambda hypothesis: hypothesis.cv_rmse) if spare else None
 
-    def _exchanged(self, current: Trial) -> Trial | None:
+    def _exchanged(self, current: Hypothesis) -> Hypothesis | None:
         for name in self.adopted(current):
             rivals = list(self.alternatives(current, name).values())
             if not rivals:
                 continue
             best = self.simplest([current, *rivals])
             if best is not current and best.cv_rmse < ALIKE * current.cv_rmse:
-                clear = advantage(best.left_out, current.left_out, self.bench.blocks) > CLEAR
+                clear = advantage(best.left_out, current.left_out, self.fitter.blocks) > CLEAR
                 more = len(best.values) - len(current.values)
                 least = NAMED if more > 0 else 0.0
                 better = (clear or more < 0) and self.share(current, best) > least
                 if better or self.tied(current, best):
-                    return self.bench.refitted(best)
+                    return self.fitter.refitted(best)
         return None
 
-    def _extensions(self, trial: Trial, instead_of: Trial | None = None) -> dict[str, Trial]:
+    def _extensions(self, hypothesis: Hypothesis, instead_of: Hypothesis | None = None) -> dict[str, Hypothesis]:
         """instead_of : a system with one effect more, in the place of which others are tried"""
-        names = [n for n in self.candidates if n not in trial.names and (not instead_of or n not in instead_of.names)]
+        names = [
+            n for n in self.candidates if n not in hypothesis.names and (not instead_of or n not in instead_of.names)
+        ]
         other = instead_of.values if instead_of else None
-        keys = [trial.names | {name} for name in names]
-        return dict(zip(names, self._ask([("extended", trial, name, other) for name in names], keys), strict=True))
+        keys = [hypothesis.names | {name} for name in names]
+        return dict(zip(names, self._ask([("extended", hypothesis, name, other) for name in names], keys), strict=True))
 
-    def _sought(self, trials: dict[str, Trial]) -> dict[str, Trial]:
+    def _sought(self, hypotheses: dict[str, Hypothesis]) -> dict[str, Hypothesis]:
         """The contenders are fitted again from other starts, where there is more than one effect to be bent."""
-        least = min((trial.rmse for trial in trials.values()), default=0.0)
-        ranked = sorted(trials, key=lambda name: trials[name].rmse)
+        least = min((hypothesis.rmse for hypothesis in hypotheses.values()), default=0.0)
+        ranked = sorted(hypotheses, key=lambda name: hypotheses[name].rmse)
         close = [
             name
             for name in ranked[:CONTENDERS]
-            if trials[name].rmse < WITHIN * least
-            and len(self.adopted(trials[name])) > 1
-            and trials[name].names not in self.sought
+            if hypotheses[name].rmse < WITHIN * least
+            and len(self.adopted(hypotheses[name])) > 1
+            and hypotheses[name].names not in self.sought
         ]
-        again = self.crew.map([("refitted", trials[name]) for name in close])
-        for name, trial in zip(close, again, strict=True):
-            self.known[trial.names] = trial
-            self.sought.add(trial.names)
-            trials = {**trials, name: trial}
-        return trials
+        again = self.workers.map([("refitted", hypotheses[name]) for name in close])
+        for name, hypothesis in zip(close, again, strict=True):
+            self.known[hypothesis.names] = hypothesis
+            self.sought.add(hypothesis.names)
+            hypotheses = {**hypotheses, name: hypothesis}
+        return hypotheses
 
-    def _reduced(self, current: Trial, names: Sequence[str]) -> list[Trial]:
+    def _reduced(self, current: Hypothesis, names: Sequence[str]) -> list[Hypothesis]:
         """Without one effect each. Fitted from here even where it is known: from here it may fit better than from
         where it was first fitted."""
         weighed = {name for name in names if (current.names, name) in self.weighed}
         new = [name for name in names if name not in weighed or current.names - {name} not in self.known]
-        for name, trial in zip(new, self.crew.map([("reduced", current, name) for name in new]), strict=True):
+        for name, hypothesis in zip(new, self.workers.map([("reduced", current, name) for name in new]), strict=True):
             self.weighed.add((current.names, name))
-            self._learn(trial)
+            self._learn(hypothesis)
         return [self.known[current.names - {name}] for name in names]
 
-    def _learn(self, trial: Trial) -> None:
+    def _learn(self, hypothesis: Hypothesis) -> None:
         """Keep the better fit of a system, and forget what was built on a worse one."""
-        if trial.names in self.known and self.known[trial.names].rmse * BETTER < trial.rmse:
+        if hypothesis.names in self.known and self.known[hypothesis.names].rmse * BETTER < hypothesis.rmse:
             return
-        self.known[trial.names] = trial
-        for names in [names for names in self.known if names > trial.names]:
-            if self.known[names].rmse * BETTER > trial.rmse:
+        self.known[hypothesis.names] = hypothesis
+        for names in [names for names in self.known if names > hypothesis.names]:
+            if self.known[names].rmse * BETTER > hypothesis.rmse:
                 del self.known[names]
 
-    def _ask(self, questions: Sequence[tuple], names: Sequence[frozenset[str]]) -> list[Trial]:
+    def _ask(self, questions: Sequence[tuple[Any, ...]], names: Sequence[frozenset[str]]) -> list[Hypothesis]:
         """Only what is not known yet."""
         new = [place for place, key in enumerate(names) if key not in self.known]
-        for place, trial in zip(new, self.crew.map([questions[place] for place in new]), strict=True):
-            self.known[names[place]] = trial
+        for place, hypothesis in zip(new, self.workers.map([questions[place] for place in new]), strict=True):
+            self.known[names[place]] = hypothesis
         return [self.known[key] for key in names]
-
-
-def with_simplest_offset(selection: Selection, trial: Trial) -> Trial:
-    """The same effects with the simplest offset that the data accept: none, one for all records, one a record."""
-    bench = selection.bench
-    none = bench.refitted(bench.reduced(trial, "record-offset"))
-    count = len(selection.candidates)
-    if not selection.needed(none, trial, count):
-        return none
-    common = bench.extended(none, "bias")
-    if len(bench.stack.records) == 1 or not selection.needed(common, trial, count):
-        return common
-    return trial

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from hysteresis_bench.report.shared.page import Cell, Table, listed, number, percent, render
-from hysteresis_bench.report.shared.signal_figures import named
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, picture
+from hysteresis_bench.control.comparison import FEED_FORWARD, MEANINGS, PI, SLIDING, Comparison
+from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.report.shared.blocks import Bullets, Cell, Figures, Table, Terms
+from hysteresis_bench.report.shared.page import Page, Section
+from hysteresis_bench.report.shared.text import Units, listed, named, number, percent
+from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, legend, picture
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from hysteresis_bench.control.comparison import Comparison
-
 PAGE, SCORES, RESPONSES = "control.html", "control.csv", "responses.csv"
+
+Parts = Mapping[str, pd.DataFrame]
+"""Controller -> its run along one reference."""
 
 
 def write_control(folder: Path, comparison: Comparison, model: str) -> Path:
@@ -26,26 +30,28 @@ def write_control(folder: Path, comparison: Comparison, model: str) -> Path:
     model : what the model is called, for the title
     """
     folder.mkdir(parents=True, exist_ok=True)
-    comparison.scores.to_csv(folder / SCORES, index=False, float_format="%.6g")
-    comparison.responses.to_csv(folder / RESPONSES, index=False, float_format="%.6g")
-    page = folder / PAGE
-    told = comparison.conditions
-    text = render(
-        "control.html.j2",
-        title=f"{model} in control of the rig {told['rig']}",
-        kicker=f"{told['rate']:g} samples a second, voltage within ±{told['voltage_limit']:g}",
-        answer=answer(comparison.scores),
-        warnings=list(comparison.warnings),
-        errors=[_table(comparison, score) for score in ("t_rmse", "t_error")],
-        effort=_effort(comparison),
-        pictures=_pictures(folder, comparison),
-        settings=_settings(comparison),
-        controllers=list(_meanings(comparison).items()),
-        notes=list(comparison.notes),
-        facts=[(key.replace("_", " ").capitalize(), f"{value}") for key, value in told.items()],
+    write_table(folder / SCORES, comparison.scores, digits=6)
+    write_table(folder / RESPONSES, comparison.responses, digits=6)
+    conditions = comparison.conditions
+    errors = [_table(comparison, score) for score in ("t_rmse", "t_error")]
+    meanings = [(name, MEANINGS[name]) for name in _names(comparison.scores)]
+    facts = [(key.replace("_", " ").capitalize(), f"{value}") for key, value in conditions.items()]
+    sections = [
+        Section("errors", "Tracking errors", [*errors, Terms(meanings)]),
+        Section("tracking", "References and errors", [Figures(_pictures(folder, comparison))]),
+        Section("effort", "Chatter and saturation", [_effort(comparison)]),
+        Section("settings", "Tuning", [_settings(comparison)]),
+        Section("notes", "How it was made", [Bullets(comparison.notes), Terms(facts)]),
+    ]
+    page = Page(
+        f"{model} in control of the rig {conditions['rig']}",
+        f"{conditions['rate']:g} samples a second, voltage within ±{conditions['voltage_limit']:g}",
+        sections,
+        answer(comparison.scores),
+        answers="Who follows best",
+        warnings=comparison.warnings,
     )
-    page.write_text(text, encoding="utf-8")
-    return page
+    return page.write(folder / PAGE)
 
 
 def print_control(comparison: Comparison, console: Console) -> None:
@@ -81,27 +87,21 @@ def answer(scores: pd.DataFrame) -> list[str]:
     variation = scores.pivot(index="reference", columns="controller", values="variation_per_second")
     best = errors.idxmin(axis=1)
     wins = [f"{controller} on {listed(list(best.index[best == controller]))}" for controller in best.unique()]
-    told = [f"Lowest T_rmse: {'; '.join(wins)}."]
-    for controller in [name for name in _names(scores) if name != "feed-forward"]:
-        ratio = errors[controller] / errors["feed-forward"]
-        busier = (variation[controller] / variation["feed-forward"]).median()
+    sentences = [f"Lowest T_rmse: {'; '.join(wins)}."]
+    for controller in [name for name in _names(scores) if name != FEED_FORWARD]:
+        ratio = errors[controller] / errors[FEED_FORWARD]
+        busier = (variation[controller] / variation[FEED_FORWARD]).median()
         if (ratio < 1.0).all():
             gain = f"is below the feed-forward's on every reference, by a factor of {number(1.0 / ratio.max(), 2)} to "
             gain += number(1.0 / ratio.min(), 2)
         else:
             gain = f"is not below the feed-forward's on {listed(list(ratio.index[ratio >= 1.0]))}"
-        told.append(f"The T_rmse of {controller} {gain}; its voltage moves {number(busier, 2)} times as much.")
-    return told
+        sentences.append(f"The T_rmse of {controller} {gain}; its voltage moves {number(busier, 2)} times as much.")
+    return sentences
 
 
 def _names(scores: pd.DataFrame) -> list[str]:
     return list(dict.fromkeys(scores["controller"]))
-
-
-def _meanings(comparison: Comparison) -> dict[str, str]:
-    from hysteresis_bench.control.comparison import MEANINGS
-
-    return {name: MEANINGS[name] for name in _names(comparison.scores)}
 
 
 def _table(comparison: Comparison, score: str) -> Table:
@@ -152,30 +152,32 @@ def _settings(comparison: Comparison) -> Table:
 def _pictures(folder: Path, comparison: Comparison) -> list[Picture]:
     names, found = _names(comparison.scores), []
     for reference, rows in comparison.responses.groupby("reference", sort=False):
-        parts = {name: part for name, part in rows.groupby("controller", sort=False)}
+        parts = {str(name): part for name, part in rows.groupby("controller", sort=False)}
         found.append(_followed(folder, str(reference), parts, names, comparison.units))
         found.append(_erred(folder, str(reference), parts, names, comparison.units))
     return found
 
 
-def _followed(folder: Path, reference: str, parts: dict, names: list[str], units: Any) -> Picture:
+def _followed(folder: Path, reference: str, parts: Parts, names: list[str], units: Units) -> Picture:
     caption = f"{reference}: reference and true displacement."
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        shown = [name for name in names if name in ("feed-forward", "pi", "sliding-mode")]
+        shown = [name for name in names if name in (FEED_FORWARD, PI, SLIDING)]
         for name in shown:
             part = _start(parts[name])
             axes.plot(part["time"], part["displacement"], color=SERIES[names.index(name)], linewidth=1.1, label=name)
         part = _start(parts[shown[0]])
         axes.plot(part["time"], part["wanted"], color=INK, linewidth=0.9, linestyle=(0, (4, 3)), label="reference")
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Displacement", units, "output"))
-        axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=4, borderaxespad=0, handlelength=1.4)
+        legend(axes, 4)
 
-    return picture(folder, f"tracking-{reference}", (4.6, 2.7), f"Tracking over time. {caption}", caption, draw)
+    return picture(
+        folder, f"tracking-{reference}", (4.6, 2.7), alt=f"Tracking over time. {caption}", caption=caption, draw=draw
+    )
 
 
-def _erred(folder: Path, reference: str, parts: dict, names: list[str], units: Any) -> Picture:
+def _erred(folder: Path, reference: str, parts: Parts, names: list[str], units: Units) -> Picture:
     caption = f"{reference}: reference minus true displacement, on a scale that is linear within 0.01 and logarithmic "
     caption += "beyond."
 
@@ -187,9 +189,11 @@ def _erred(folder: Path, reference: str, parts: dict, names: list[str], units: A
             axes.plot(part["time"], part["error"], color=SERIES[names.index(name)], linewidth=0.9, label=name)
         axes.set_yscale("symlog", linthresh=0.01)
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Error", units, "output"))
-        axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=3, borderaxespad=0, handlelength=1.4)
+        legend(axes, 3)
 
-    return picture(folder, f"error-{reference}", (4.6, 2.9), f"Tracking error over time. {caption}", caption, draw)
+    return picture(
+        folder, f"error-{reference}", (4.6, 2.9), alt=f"Tracking error over time. {caption}", caption=caption, draw=draw
+    )
 
 
 def _start(part: pd.DataFrame) -> pd.DataFrame:

@@ -1,78 +1,81 @@
-"""What a page shows of a diagnosis, at hand or read from files: the errors and the records, before and after."""
+"""What a page shows of a diagnosis, its own and a study's: the errors and the records before and after, and the ties.
+
+`found` is the content of diagnosis.json.
+"""
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.report.diagnosis.figures import loops, residuals
-from hysteresis_bench.report.shared.page import NONE, Cell, Table, number, percent
-from hysteresis_bench.report.shared.signal_figures import Units
+from hysteresis_bench.report.diagnosis.figures import loops, residuals, waterfall
+from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Heading, Table
+from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent, sentence
 from hysteresis_bench.report.shared.theme import Picture
-
-Errors = Mapping[str, Mapping[str, Any] | None]
-"""What diagnosis.json says under "before" and "after": fitted and held_out, each with rmse, relative_rms, max_error."""
 
 ROLES = {"fitted": "fitted", "held_out": "held out"}
 
 
-def errors_table(before: Errors, after: Errors, noise: float | None, units: Units, note: str) -> Table:
-    """Fitted and held out, before and after; noise : RMS, what the errors are divided by."""
+def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, *, more: str = "") -> Table:
+    """Fitted and held out, before and after; noise : RMS, what the errors are divided by;  more : to be noted"""
     rows: list[list[str | Cell]] = []
     for role, words in ROLES.items():
-        first, last = before[role], after[role]
+        first, last = found["before"][role], found["after"][role]
         if first is None or last is None:
             continue
         for name, errors in (("before", first), ("after", last)):
-            rmse = errors["rmse"]
+            error = errors["rmse"]
             rows.append(
                 [
                     f"{words}, {name}",
-                    Cell(number(rmse), "", name == "after"),
+                    Cell(number(error), "", name == "after"),
                     percent(errors["relative_rms"]),
                     percent(errors["max_error"]),
-                    NONE if name == "before" else number(_ratio(first["rmse"], rmse), 3, never=NONE),
-                    number(_ratio(rmse, noise), 3, never=NONE),
+                    NONE if name == "before" else number(_ratio(first["rmse"], error), 3, never=NONE),
+                    number(_ratio(error, noise), 3, never=NONE),
                 ]
             )
     rows.append(["noise", number(noise), *4 * [NONE]])
-    header = ["Records", rmse_in(units), "Relative RMS", "Largest error", "Times smaller", "Times the noise"]
-    return Table("Errors before and after", header, rows, note=note)
+    header = [
+        "Records",
+        named("RMSE", units, "output"),
+        "Relative RMS",
+        "Largest error",
+        "Times smaller",
+        "Times the noise",
+    ]
+    note = f"Relative to the largest |output − offset| measured.{more} {sentence(found['noise']['words'])}"
+    return Table("Errors before and after", header, rows, note)
 
 
-def record_pictures(
-    folder: Path, place: str, rows: pd.DataFrame, noise: float, units: Units
-) -> tuple[str, Picture, Picture]:
+def step_by_step(folder: Path, found: Mapping[str, Any], units: Units, *, name: str = "waterfall") -> Picture:
+    """The error from the bare model via each adopted effect to the noise."""
+    ends = [(found[stage]["held_out"] or {}).get("rmse") for stage in ("before", "after")]
+    steps = [(step["system"], step["rmse"]) for step in found["waterfall"]]
+    return waterfall(folder, steps, (ends[0], ends[1]), units=units, name=name)
+
+
+def record_blocks(folder: Path, place: str, rows: pd.DataFrame, *, noise: float, units: Units) -> list[Block]:
     """Heading, loop and residual of one record; place : what the figures' names have before the record's."""
     record, role = rows["record"].iloc[0], rows["role"].iloc[0]
-    heading = f"{record} ({role})"
-    name = re.sub(r"[^A-Za-z0-9-]+", "-", f"{place}-{record}").strip("-")
-    return (
-        heading,
-        loops(folder, f"loop-{name}", rows, units, f"{heading}."),
-        residuals(folder, f"residual-{name}", rows, noise, units, f"{heading}."),
-    )
+    heading, name = f"{record} ({role})", f"{place}-{record}"
+    drawn = loops(folder, f"loop-{name}", rows, units=units, caption=f"{heading}.")
+    left = residuals(folder, f"residual-{name}", rows, noise=noise, units=units, caption=f"{heading}.")
+    return [Heading(heading), Figures([drawn, left])]
 
 
-def besides_ties(warnings: Sequence[str], ties: Iterable[tuple[str, str]]) -> list[str]:
-    """Warnings without those that only say what a list of ties says; ties : effect and rival."""
-    told = tuple(f"{effect} and {rival} cannot" for effect, rival in ties)
-    return [warning for warning in warnings if not (told and warning.startswith(told))]
+def ties_in_words(ties: Sequence[Mapping[str, Any]]) -> list[str]:
+    """One sentence a pair."""
+    return [f"{tie['effect']} and {tie['rival']}: {tie['reason']}." for tie in ties]
 
 
-def rmse_in(units: Units) -> str:
-    """RMSE (um)"""
-    unit = units.get("output", "1")
-    return f"RMSE ({unit})" if unit != "1" else "RMSE"
-
-
-def sentence(words: str) -> str:
-    """A capital at the beginning, a full stop at the end."""
-    return f"{words[:1].upper()}{words[1:]}{'' if words.endswith('.') else '.'}"
+def besides_ties(warnings: Sequence[str], ties: Sequence[Mapping[str, Any]]) -> list[str]:
+    """Warnings without those that only say what a list of ties says."""
+    listed = tuple(f"{tie['effect']} and {tie['rival']} cannot" for tie in ties)
+    return [warning for warning in warnings if not (listed and warning.startswith(listed))]
 
 
 def _ratio(above: float | None, below: float | None) -> float | None:

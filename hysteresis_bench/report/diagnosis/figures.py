@@ -2,26 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
-from hysteresis_bench.report.shared.page import number
-from hysteresis_bench.report.shared.signal_figures import Units, named
-from hysteresis_bench.report.shared.theme import GRID, INK, MUTED, SERIES, Picture, picture
+from hysteresis_bench.report.shared.text import Units, named, number
+from hysteresis_bench.report.shared.theme import GRID, INK, MUTED, SERIES, Picture, legend, picture
 
 BEFORE, AFTER, NOISE, HELD_OUT = SERIES[1], SERIES[0], SERIES[2], SERIES[3]
-MOST = 3000
-"""Points of a curve in a figure; more only make the page heavy."""
 
 
 def waterfall(
     folder: Path,
     steps: Sequence[tuple[str, float]],
     held_out: tuple[float | None, float | None],
+    *,
     units: Units,
     name: str = "waterfall",
 ) -> Picture:
@@ -52,10 +49,10 @@ def waterfall(
         if any(value is not None for value in held_out):
             columns.append((1.19, "not fitted", HELD_OUT, {0: held_out[0], last: held_out[1]}))
         beside = axes.get_yaxis_transform()  # x as a share of the axes, y in rows
-        for place, heading, colour, told_here in columns:
+        for place, heading, colour, by_row in columns:
             axes.text(place, -0.7, heading, color=colour, transform=beside, va="center", fontsize=8)
-            for row, told_value in told_here.items():
-                axes.text(place, row, number(told_value, 3), color=colour, transform=beside, va="center")
+            for row, error in by_row.items():
+                axes.text(place, row, number(error, 3), color=colour, transform=beside, va="center")
         axes.set_yticks(range(len(labels)), labels)
         axes.invert_yaxis()
         axes.grid(axis="y", visible=False)
@@ -63,18 +60,17 @@ def waterfall(
         axes.ticklabel_format(axis="x", scilimits=(-3, 5), useMathText=True)
         axes.set_xlabel(named("RMSE", units, "output"))
 
-    told = ", ".join(f"{label} {value:.3g}" for label, value in zip(labels, values, strict=True))
+    steps_in_words = ", ".join(f"{label} {value:.3g}" for label, value in zip(labels, values, strict=True))
     caption = (
         "Error on the fitted records, bare model first, each bar with the effects above it; grey is what the effect "
         "takes away. Diamonds: error on what was not fitted, bare and final."
     )
     height = 1.25 + 0.36 * len(steps)
-    return picture(folder, name, (6.4, height), f"RMSE step by step: {told}.", caption, draw)
+    return picture(folder, name, (6.4, height), alt=f"RMSE step by step: {steps_in_words}.", caption=caption, draw=draw)
 
 
-def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str) -> Picture:
+def loops(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> Picture:
     """Output over input of one record, measured, before and after side by side."""
-    rows = fewer(rows)
 
     def draw(figure: Any) -> None:
         for axes, which, colour in zip(
@@ -83,15 +79,14 @@ def loops(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: st
             axes.plot(rows["input"], rows["output"], color=MUTED, linewidth=2.6, alpha=0.5, label="measured")
             axes.plot(rows["input"], rows[which], color=colour, linewidth=1.1, label=which)
             axes.set_xlabel(named("Input", units, "input"))
-            axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0, handlelength=1.4)
+            legend(axes)
         figure.axes[0].set_ylabel(named("Output", units, "output"))
 
-    return picture(folder, name, (6.0, 3.0), f"Loop before and after. {caption}", caption, draw)
+    return picture(folder, name, (6.0, 3.0), alt=f"Loop before and after. {caption}", caption=caption, draw=draw)
 
 
-def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: Units, caption: str) -> Picture:
+def residuals(folder: Path, name: str, rows: pd.DataFrame, *, noise: float, units: Units, caption: str) -> Picture:
     """Measured minus simulated of one record, over time and over input, before and after; noise : RMS, shaded."""
-    rows = fewer(rows)
 
     def draw(figure: Any) -> None:
         panels = figure.subplots(1, 2, sharey=True, width_ratios=(1.7, 1))
@@ -103,35 +98,7 @@ def residuals(folder: Path, name: str, rows: pd.DataFrame, noise: float, units: 
             axes.set_xlabel(named(label, units, along))
             axes.locator_params(axis="x", nbins=5)
         panels[0].set_ylabel(named("Residual", units, "output"))
-        panels[0].legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0, handlelength=1.4)
+        legend(panels[0])
 
-    told = f"{caption} Shaded: twice the noise to either side."
-    return picture(folder, name, (6.4, 2.6), f"Residual before and after. {caption}", told, draw)
-
-
-def confusion(
-    folder: Path, name: str, counts: Mapping[tuple[str, str], int], rows: Sequence[str], columns: Sequence[str]
-) -> Picture:
-    """How often each hidden effect (row) was claimed as each effect (column)."""
-
-    def draw(figure: Any) -> None:
-        axes = figure.add_subplot()
-        largest = max(counts.values(), default=1)
-        for (row, column), count in counts.items():
-            at = columns.index(column), rows.index(row)
-            right = column in row.split("|")
-            colour = AFTER if right else BEFORE
-            axes.scatter(*at, s=330 * count / largest, color=colour, alpha=0.35, linewidth=0, zorder=2)
-            axes.annotate(str(count), at, ha="center", va="center", zorder=3)
-        axes.set_xticks(range(len(columns)), columns, rotation=45, ha="right", rotation_mode="anchor")
-        axes.set_yticks(range(len(rows)), rows)
-        axes.set(xlim=(-0.6, len(columns) - 0.4), ylim=(len(rows) - 0.4, -0.6), xlabel="Claimed", ylabel="Hidden")
-
-    size = (1.9 + 0.36 * len(columns), 1.6 + 0.32 * len(rows))
-    caption = "Hidden against claimed, in cases. Blue: the right name. Orange: another name, tied ones included."
-    return picture(folder, name, size, "Confusion matrix; the table has the numbers.", caption, draw)
-
-
-def fewer(rows: pd.DataFrame) -> pd.DataFrame:
-    """Evenly spread rows, at most MOST."""
-    return rows.iloc[np.unique(np.linspace(0, len(rows) - 1, min(len(rows), MOST)).astype(int))]
+    shaded = f"{caption} Shaded: twice the noise to either side."
+    return picture(folder, name, (6.4, 2.6), alt=f"Residual before and after. {caption}", caption=shaded, draw=draw)

@@ -8,16 +8,17 @@ from pathlib import Path
 import numpy as np
 
 from hysteresis_bench.diagnosis_study.case import Case
-from hysteresis_bench.diagnosis_study.run import CASES, CONFUSION, NOTHING, STUDY, read_cases, read_diagnosis_study
-from hysteresis_bench.report.diagnosis.figures import confusion
-from hysteresis_bench.report.shared.page import NONE, Cell, Table, listed, number, render, whole
-from hysteresis_bench.report.shared.theme import Picture
+from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.results import CASES, CONFUSION, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table
+from hysteresis_bench.report.shared.page import Page, Section, files_beside
+from hysteresis_bench.report.shared.text import NONE, listed, number, whole
 from hysteresis_bench.stats import wilson
 
 FILE = "report.html"
-
-KNOWN = "hidden-effects"
-"""The rig whose hysteresis is the model's own."""
 
 GOOD = 1.15
 """RMSE over noise up to which records that were neither fitted nor held out count as predicted."""
@@ -26,31 +27,45 @@ SEEN = 2.0
 """RMSE of the bare model over noise from which what is hidden is big enough to be asked for."""
 
 
-def write_closing_page(folder: Path) -> Path:
-    """Write report.html and figures/*.svg into the results folder of a study of diagnosis; returns the page."""
+def write_diagnosis_study_page(folder: Path) -> Path:
+    """Write report.html and figures/*.svg into the results folder of a study of diagnosis; returns the page.
+
+    Raises UserError where no case is there.
+    """
     study, _ = read_diagnosis_study(folder / STUDY)
     known, others = _halves(folder)
     cases = [*known, *others]
-    page = folder / FILE
-    text = render(
-        "closing.html.j2",
-        title=study.title,
-        kicker=f"A study of diagnosis, {len(cases)} cases",
-        answer=_answer(known, others),
-        confusions=[each for each in (_confusion(folder, "known", known), _confusion(folder, "rigs", others)) if each],
-        benches=_benches([bench.name for bench in study.bench], cases),
-        wrong=_wrong([case for case in cases if case.status == "done" and not case.right]),
-        failures=_failures([case for case in cases if case.status != "done"]),
-        notes=study.notes,
-        files=[(CASES, "a row a case"), (CONFUSION, "hidden against claimed"), (STUDY, "the study")],
-    )
-    page.write_text(text, encoding="utf-8")
-    return page
+    if not cases:
+        raise UserError(str(folder), "holds no cases: its folder cases is missing or empty. Run the study again.")
+    confusions = _confusion(folder, "known", known) + _confusion(folder, "rigs", others)
+    benches = _benches([bench.name for bench in study.bench], cases)
+    wrong = _wrong([case for case in cases if case.status == "done" and not case.right])
+    failures = _failures([case for case in cases if case.status != "done"])
+    sections = [
+        Section("confusion", "What was hidden, and what was claimed", confusions),
+        Section("benches", "The error, before and after", [benches]),
+        *([Section("wrong", "Where it went wrong", [wrong])] if wrong.rows else []),
+        *([Section("failures", "What did not finish", [failures])] if failures.rows else []),
+        _how(study.notes),
+    ]
+    page = Page(study.title, f"A study of diagnosis, {len(cases)} cases", sections, _answer(known, others))
+    return page.write(folder / FILE)
 
 
-def told(folder: Path) -> list[str]:
+def answer(folder: Path) -> list[str]:
     """The answer in sentences."""
     return _answer(*_halves(folder))
+
+
+def _how(notes: Sequence[str]) -> Section:
+    blocks: list[Block] = [Bullets(notes)] if notes else []
+    blocks += [
+        "A case is right when every hidden effect is named, or tied with a claimed one, and nothing else is claimed. "
+        "Intervals are Wilson’s. The noise is the one that was put in, where the rig tells it, otherwise its estimate "
+        "from the data.",
+        files_beside({CASES: "a row a case", CONFUSION: "hidden against claimed", STUDY: "the study"}),
+    ]
+    return Section("definitions", "How it was made", blocks)
 
 
 def _answer(known: Sequence[Case], others: Sequence[Case]) -> list[str]:
@@ -92,22 +107,22 @@ def _share(hits: Sequence[bool]) -> str:
     return f"{sum(hits)} of {len(hits)} ({shares[0]}; 95\u202f% interval {shares[1]} to {shares[2]})"
 
 
-def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> tuple[str, Picture, Table] | None:
-    from hysteresis_bench.diagnosis_study.run import confusion as counted
-
-    table = counted(cases)
+def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> list[Block]:
+    """Figure and table under their heading; nothing without a case that is done."""
+    table = confusion(cases)
     if table.empty:
-        return None
+        return []
     rows = sorted(table.index, key=lambda effect: (effect == NOTHING, effect))
     columns = sorted(table.columns, key=lambda effect: (effect == NOTHING, effect))
     counts = {(row, column): int(table.at[row, column]) for row in rows for column in columns if table.at[row, column]}
     heading = "Where the hysteresis is the model's own" if name == "known" else "On the virtual rigs"
-    drawn = confusion(folder, f"confusion-{name}", counts, rows, columns)
+    drawn = confusion_matrix(folder, f"confusion-{name}", counts, rows=rows, columns=columns)
     lines: list[list[str | Cell]] = [
         [row, *(_count(row, column, counts.get((row, column), 0)) for column in columns)] for row in rows
     ]
     note = "An effect that was missed stands under what was claimed in its place, or under nothing."
-    return heading, drawn, Table("Hidden (rows) against claimed (columns)", ["Hidden", *columns], lines, note=note)
+    counted = Table("Hidden (rows) against claimed (columns)", ["Hidden", *columns], lines, note)
+    return [Heading(heading), Figures([drawn]), counted]
 
 
 def _count(row: str, column: str, count: int) -> Cell:
@@ -168,7 +183,8 @@ def _failures(cases: Sequence[Case]) -> Table:
 
 
 def _halves(folder: Path) -> tuple[list[Case], list[Case]]:
-    """Cases where the hysteresis is the model's own, and the others."""
-    rigs = {bench.name: bench.rig for bench in read_diagnosis_study(folder / STUDY)[0].bench}
-    cases = [case for case in read_cases(folder) if case.bench in rigs]
-    return [c for c in cases if rigs[c.bench] == KNOWN], [c for c in cases if rigs[c.bench] != KNOWN]
+    """Cases where the hysteresis is the model's own, as the rig is built with that model, and the others."""
+    benches = {bench.name: bench for bench in read_diagnosis_study(folder / STUDY)[0].bench}
+    own = {name for name, bench in benches.items() if bench.settings.get("model") == bench.model}
+    cases = [case for case in read_cases(folder) if case.bench in benches]
+    return [case for case in cases if case.bench in own], [case for case in cases if case.bench not in own]

@@ -6,17 +6,20 @@ import hashlib
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
+from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.fit.model_file import write_model
-from hysteresis_bench.report.fit.page import write_fit_page
+from hysteresis_bench.report.fit.page import FILE, write_fit_page
 
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
+FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
 
 
 def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
@@ -25,9 +28,9 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
     sums = [hashlib.sha256(file.read_bytes()).hexdigest() for file in files]
     data = {"files": [str(file) for file in files], "sha256": sums, **fit.model.data}
     write_model(folder / MODEL, replace(fit.model, data=data))
-    fit.parameters.to_csv(folder / PARAMETERS, index=False)
-    fit.responses.to_csv(folder / RESPONSES, index=False, float_format="%.8g")
-    told = {
+    write_table(folder / PARAMETERS, fit.parameters)
+    write_table(folder / RESPONSES, fit.responses, digits=8)
+    summary = {
         "title": f"{fit.model.model} fitted to {', '.join(file.stem for file in files)}",
         "model": fit.model.model,
         "effects": list(fit.model.effects),
@@ -42,7 +45,7 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
             **{f"sha256 of {file.name}": sha for file, sha in zip(files, sums, strict=True)},
         },
     }
-    return write_fit_page(folder, told, fit.responses)
+    return write_fit_page(folder, summary, fit.responses)
 
 
 def print_fit(fit: Fit, console: Console) -> None:
@@ -72,6 +75,6 @@ def print_fit(fit: Fit, console: Console) -> None:
         console.print(f"[yellow]note:[/] {escape(warning)}", highlight=False)
 
 
-def _rows(table: pd.DataFrame) -> list[dict]:
+def _rows(table: pd.DataFrame) -> list[dict[str, Any]]:
     """Records of a table, absent values as None."""
     return [{key: None if pd.isna(value) else value for key, value in row.items()} for row in table.to_dict("records")]

@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.report.shared.page import NONE, Cell, Table, number, percent, render
+from hysteresis_bench.report.shared.blocks import (
+    ESTIMATE_HEADER,
+    ESTIMATE_NOTE,
+    Block,
+    Bullets,
+    Cell,
+    Figures,
+    Table,
+    Terms,
+    estimate_cells,
+)
+from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.shared.signal_figures import errors, loop
+from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent
 from hysteresis_bench.report.shared.theme import SERIES, Picture
 
 FILE = "fit.html"
@@ -36,22 +47,23 @@ def write_fit_page(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame
     responses : record, role, time, input, output, simulated
     """
     loops, residuals = _pictures(folder, fit, responses)
-    page = folder / FILE
-    text = render(
-        "fit.html.j2",
-        title=fit["title"],
-        kicker=_kicker(fit),
-        answer=list(filter(None, [_grade(fit["records"]), fit.get("agreement"), _left_out(responses)])),
+    made: list[Block] = [Bullets(fit["notes"])] if fit.get("notes") else []
+    sections = [
+        Section("parameters", "Parameters", [_parameters(fit["parameters"])]),
+        Section("errors", "Errors", [_errors(fit["records"], fit.get("units", {}))]),
+        Section("loops", "Measured and fitted", [Figures(loops, "small")]),
+        Section("residuals", "What is left", [Figures(residuals)]),
+        Section("notes", "How it was made", [*made, Terms(_facts(fit.get("provenance", {})))]),
+    ]
+    page = Page(
+        fit["title"],
+        _kicker(fit),
+        sections,
+        [said for said in (_grade(fit["records"]), fit.get("agreement"), _left_out(responses)) if said],
+        answers="How good is this",
         warnings=fit.get("warnings", ()),
-        parameters=_parameters(fit["parameters"]),
-        errors=_errors(fit["records"], fit.get("units", {})),
-        loops=loops,
-        residuals=residuals,
-        notes=fit.get("notes", ()),
-        facts=_facts(fit.get("provenance", {})),
     )
-    page.write_text(text, encoding="utf-8")
-    return page
+    return page.write(folder / FILE)
 
 
 def _kicker(fit: Mapping[str, Any]) -> str:
@@ -61,7 +73,7 @@ def _kicker(fit: Mapping[str, Any]) -> str:
 
 def _grade(records: Sequence[Mapping[str, Any]]) -> str:
     """How good is this: the errors in words, fitted and held out apart."""
-    told = []
+    said = []
     for role, verb in (("fitted", "it was fitted to"), ("held-out", "it has not seen")):
         mine = [record for record in records if record["role"] == role]
         if not mine:
@@ -72,13 +84,13 @@ def _grade(records: Sequence[Mapping[str, Any]]) -> str:
             f"the {len(mine)} records {verb}, at worst ({worst['record']})" if len(mine) > 1 else f"the record {verb}"
         )
         largest = max(record["max_error"] for record in mine)
-        told.append(
+        said.append(
             f"On {several} the model leaves a relative RMS of {percent(worst['relative_rms'])} and a largest error of "
             f"{percent(largest)}. That is {grade}."
         )
     if not any(record["role"] == "held-out" for record in records):
-        told.append("No record was held out, so nothing here says how well it predicts.")
-    return " ".join(told)
+        said.append("No record was held out, so nothing here says how well it predicts.")
+    return " ".join(said)
 
 
 def _left_out(responses: pd.DataFrame) -> str:
@@ -87,37 +99,23 @@ def _left_out(responses: pd.DataFrame) -> str:
 
 
 def _parameters(parameters: Sequence[Mapping[str, Any]]) -> Table:
-    rows: list[list[str | Cell]] = []
-    for parameter in parameters:
-        value, error = parameter["value"], parameter.get("standard_error")
-        share = abs(error / value) if error is not None and value else None
-        unsure = share is not None and share > 1.0
-        rows.append(
-            [
-                parameter["name"],
-                number(value, 6),
-                number(error, 2, never="not determined"),
-                Cell(percent(share, 2, never="not determined"), "bad" if unsure else ""),
-                "" if parameter.get("unit") in ("1", None) else str(parameter["unit"]),
-                Cell("at its bound", "bad") if parameter.get("at_bound") else "",
-            ]
-        )
-    return Table(
-        "Identified values",
-        ["Parameter", "Value", "Standard error", "Of the value", "Unit", "Remark"],
-        rows,
-        note="Standard errors allow for correlated residuals; they do not know of what the model lacks.",
-    )
+    rows = [
+        [
+            *estimate_cells(each["name"], each["value"], each.get("standard_error"), unit=each.get("unit")),
+            Cell("at its bound", "bad") if each.get("at_bound") else "",
+        ]
+        for each in parameters
+    ]
+    return Table("Identified values", [*ESTIMATE_HEADER, "Remark"], rows, ESTIMATE_NOTE)
 
 
-def _errors(records: Sequence[Mapping[str, Any]], units: Mapping[str, str]) -> Table:
-    unit = units.get("output", "1")
+def _errors(records: Sequence[Mapping[str, Any]], units: Units) -> Table:
     rows = [
         [record["record"], record["role"], number(record["rmse"]), percent(record["relative_rms"]),
          percent(record["max_error"])]
         for record in records
     ]  # fmt: skip
-    header = ["Record", "Role", f"RMSE ({unit})" if unit != "1" else "RMSE", "Relative RMS", "Largest error"]
+    header = ["Record", "Role", named("RMSE", units, "output"), "Relative RMS", "Largest error"]
     return Table("Errors of each record", header, rows, note="Relative to the largest |output − offset| measured.")
 
 
@@ -129,12 +127,15 @@ def _pictures(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame) -> 
             break
         role = rows["role"].iloc[0]
         colour = SERIES[0] if role == "fitted" else SERIES[1]
-        name = re.sub(r"[^A-Za-z0-9-]+", "-", f"{index + 1}-{record}").strip("-")
         caption = f"{record} ({role})."
         if rows["output"].notna().any():
-            loops.append(loop(folder, f"loop-{name}", rows, units, fit["model"], caption, colour))
-            told = f"{caption} Simulated minus measured."
-            residuals.append(errors(folder, f"residual-{name}", {role: (rows, colour)}, units, told))
+            loops.append(
+                loop(folder, f"loop-{index + 1}-{record}", {fit["model"]: (rows, colour)}, units=units, caption=caption)
+            )
+            minus = f"{caption} Simulated minus measured."
+            residuals.append(
+                errors(folder, f"residual-{index + 1}-{record}", {role: (rows, colour)}, units=units, caption=minus)
+            )
     return loops, residuals
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,6 +11,9 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.paper.expression import evaluate
 from hysteresis_bench.report.paper.published import Audit, Published
+from hysteresis_bench.report.shared.blocks import Cell, Table
+from hysteresis_bench.report.shared.page import Section
+from hysteresis_bench.report.shared.text import NONE, number
 
 SAMPLES = 200_000
 SEED = 1
@@ -75,3 +78,48 @@ def _agrees(value: bool | float, entry: Audit) -> bool | None:
     if isinstance(entry.expects, bool) or isinstance(value, bool):
         return value is entry.expects
     return abs(value - entry.expects) <= entry.tolerance * abs(entry.expects)
+
+
+def section(findings: Sequence[Finding]) -> Section | None:
+    """None without an audited statement."""
+    if not findings:
+        return None
+    computed = [finding for finding in findings if finding.entry.arithmetic]
+    wrong = [finding for finding in computed if finding.borne_out is False]
+    verdict = "all of them are borne out" if not wrong else f"{len(wrong)} are not borne out"
+    count = f"{len(findings)} statements, {len(computed)} with arithmetic that was evaluated for this page: {verdict}."
+    what = "What is printed and cannot be so, what is misprinted, and what follows from the printed numbers."
+    return Section("audit", "Paper audit", [f"{what} {count}", _table(findings)])
+
+
+def _table(findings: Sequence[Finding]) -> Table:
+    rows: list[list[str | Cell]] = []
+    for found in findings:
+        entry = found.entry
+        how = f" (box sampled on a {entry.scaling} scale)" if entry.sample else ""
+        rows.append(
+            [
+                entry.where,
+                entry.printed,
+                Cell(entry.says, "prose"),
+                Cell(entry.kind, strong=True),
+                Cell(f"{entry.arithmetic}{how} = {_gives(found)}", "code") if entry.arithmetic else NONE,
+                _checked(found),
+            ]
+        )
+    header = ["Where", "Printed", "What follows", "Kind", "Arithmetic", "Checked"]
+    return Table("Statements about the paper, each checked by its arithmetic", header, rows)
+
+
+def _gives(found: Finding) -> str:
+    if found.fault:
+        return found.fault
+    if isinstance(found.value, bool):
+        return "true" if found.value else "false"
+    return number(found.value)
+
+
+def _checked(found: Finding) -> Cell:
+    if found.borne_out is None:
+        return Cell("computed" if found.entry.arithmetic else "by reading", "quiet")
+    return Cell("borne out", "good") if found.borne_out else Cell("not borne out", "bad")

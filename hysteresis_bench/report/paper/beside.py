@@ -7,22 +7,32 @@ from collections.abc import Iterator
 from hysteresis_bench import stats
 from hysteresis_bench.report.paper.expression import evaluate
 from hysteresis_bench.report.paper.published import Published
-from hysteresis_bench.report.shared.page import NONE, Cell, Table, number
-from hysteresis_bench.report.study.stages_section import of_a_stage
-from hysteresis_bench.report.study.summary import Problem
-from hysteresis_bench.report.study.tables import metric_text
+from hysteresis_bench.report.paper.published import Table as Printed
+from hysteresis_bench.report.shared.blocks import Block, Cell, Paragraph, Table
+from hysteresis_bench.report.shared.page import Section
+from hysteresis_bench.report.shared.text import NONE, number
+from hysteresis_bench.report.trials.metrics import NAMES, metric_text
+from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.study.results import Results
 
-NAMES = {
-    "fitness": "fitness",
-    "relative_rms": "relative RMS",
-    "max_error": "largest relative error",
-    "rmse": "RMSE",
-    "held_out_rmse": "held-out RMSE",
-}
+
+def section(published: Published, results: Results, problems: list[Problem]) -> Section | None:
+    """None where the paper prints no number."""
+    if not (published.result or published.tables):
+        return None
+    beside = [_results_beside(published, problems), *_tables_beside(published, results, problems)]
+    blocks: list[Block] = [published.because, *beside, Paragraph(published.citation, "source")]
+    return Section("published", "Published beside ours", blocks)
 
 
-def results_beside(published: Published, problems: list[Problem]) -> Table:
+def of_a_stage(table: Printed, results: Results) -> bool:
+    """Does a printed table stand beside what followed a static problem, and so not among the others?"""
+    fitted = any(set(spec.fit) <= set(table.columns) for spec in results.study.stage)
+    tracked = "reference" in table.columns and any(spec.control for spec in results.study.stage)
+    return fitted or tracked or (bool(results.study.stage) and "record" in table.columns)
+
+
+def _results_beside(published: Published, problems: list[Problem]) -> Table:
     """Every printed result, and what it implies, beside our best and median."""
     rows = list(_results(published, problems))
     header = ["Optimizer", "Quantity", "Published", "May be compared"]
@@ -64,7 +74,7 @@ def _ours(optimizer: str, metric: str, problems: list[Problem]) -> Iterator[str]
         yield metric_text(metric, stats.quantile(values, 0.5))
 
 
-def tables_beside(published: Published, results: Results, problems: list[Problem]) -> list[Table]:
+def _tables_beside(published: Published, results: Results, problems: list[Problem]) -> list[Table]:
     """Every printed table. One with the columns parameter, min and max is a search box and stands beside
     ours; one with the column optimizer holds identified values and stands beside our best trial's; one of a
     stage stands with the stage."""

@@ -2,31 +2,29 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError
-
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.strict import Strict, read_toml, validated
 from hysteresis_bench.study.study_file import read_study
 
 Kind = Literal["contradiction", "misprint", "omission", "consequence"]
 
 
-class _Strict(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+class Table(Strict):
+    """A printed table by columns; `title` as printed.
 
-
-class Table(_Strict):
-    """A printed table by columns; `title` as printed."""
+    controller : which of ours is the paper's own, of a table of tracking errors
+    """
 
     title: str
+    controller: str = ""
     columns: dict[str, list[float | str]]
 
 
-class PublishedResult(_Strict):
+class PublishedResult(Strict):
     """One printed number of one optimizer."""
 
     optimizer: str
@@ -35,7 +33,7 @@ class PublishedResult(_Strict):
     where: str
 
 
-class Implied(_Strict):
+class Implied(Strict):
     """What a printed metric implies for another one, under assumptions that the paper leaves open.
 
     arithmetic : an expression of `value` (the printed one) and of the names in `given`
@@ -49,7 +47,7 @@ class Implied(_Strict):
     says: str = ""
 
 
-class Claim(_Strict):
+class Claim(Strict):
     """A sentence of the paper as a comparison: `better` has the lower `metric`, a column of trials.csv or
     evaluations_to_success."""
 
@@ -60,7 +58,7 @@ class Claim(_Strict):
     metric: str
 
 
-class Audit(_Strict):
+class Audit(Strict):
     """A statement about what is printed, with the arithmetic that bears it out.
 
     arithmetic : an expression of [values], tables, earlier `name`s and `sample`; empty for a remark on words
@@ -81,7 +79,7 @@ class Audit(_Strict):
     scaling: Literal["linear", "log"] = "linear"
 
 
-class Decision(_Strict):
+class Decision(Strict):
     """What the paper leaves open, and what is done here."""
 
     where: str
@@ -89,7 +87,7 @@ class Decision(_Strict):
     decided: str
 
 
-class Published(_Strict):
+class Published(Strict):
     """A published file. `comparable` names the metrics that may be set side by side with ours, and `because`
     says why only those; `iterations` is the paper's number of iterations after the first swarm."""
 
@@ -113,20 +111,15 @@ class Published(_Strict):
 
 
 def check_published(raw: Mapping[str, Any], where: str = "published.toml") -> Published:
-    """Parsed TOML -> a checked file; an empty one without a paper. Raises UserError telling every fault."""
-    try:
-        return Published.model_validate(dict(raw))
-    except ValidationError as error:
-        places = [(" ".join(str(part) for part in fault["loc"]), fault["msg"]) for fault in error.errors()]
-        raise UserError(where, [f"{place}: {message}." for place, message in places]) from None
+    """Parsed TOML -> a checked file; an empty one without a paper. Raises UserError naming every fault."""
+    published, _, faults = validated(Published, raw)
+    if published is None:
+        raise UserError(where, faults)
+    return published
 
 
 def check_published_beside(study: Path) -> None:
     """Check the published file that a study names, before an hour of trials. Raises UserError."""
     named = read_study(study)[0].published
     if named and (file := study.parent / named).is_file():
-        try:
-            raw = tomllib.loads(file.read_text(encoding="utf-8"))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise UserError(str(file), f"is not valid TOML: {error}.") from None
-        check_published(raw, str(file))
+        check_published(read_toml(file)[0], str(file))

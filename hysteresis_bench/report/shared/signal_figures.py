@@ -1,4 +1,7 @@
-"""Figures of signals: drive and response, loops, errors; measured beside simulated. Studies and fits share them."""
+"""Figures of signals: drive and response, loops, errors; measured beside simulated. Studies and fits share them.
+
+Rows are those of a response table: record, role, time, input, output and what a model made of it.
+"""
 
 from __future__ import annotations
 
@@ -9,18 +12,15 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, picture
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.report.shared.text import Units, named
+from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, legend, picture
 
-Units = Mapping[str, str]
-
-
-def named(quantity: str, units: Units, key: str) -> str:
-    """An axis label with its unit, where it is known: `Input (°C)`."""
-    unit = {"degC": "°C", "deg": "°", "um": "μm"}.get(units.get(key, ""), units.get(key, ""))
-    return f"{quantity} ({unit})" if unit not in ("", "1") else quantity
+Parts = Mapping[str, tuple[pd.DataFrame, str]]
+"""Who simulated -> the rows of one record, and a colour."""
 
 
-def drive(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: str) -> Picture:
+def drive(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> Picture:
     """Input and measured output of one record over time."""
 
     def draw(figure: Any) -> None:
@@ -32,31 +32,49 @@ def drive(folder: Path, name: str, rows: pd.DataFrame, units: Units, caption: st
         lower.set_xlabel(named("Time", units, "time"))
         figure.align_ylabels()
 
-    return picture(folder, name, (4.2, 3.2), f"Input and output over time. {caption}", caption, draw)
+    return picture(folder, name, (4.2, 3.2), alt=f"Input and output over time. {caption}", caption=caption, draw=draw)
 
 
-def loop(
-    folder: Path, name: str, rows: pd.DataFrame, units: Units, who: str, caption: str, colour: str = SERIES[1]
-) -> Picture:
+def loop(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:
     """Output over input of one record, measured and simulated."""
+    measured, _ = next(iter(parts.values()))
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        axes.plot(rows["input"], rows["output"], color=MUTED, linewidth=2.6, alpha=0.55, label="measured")
-        axes.plot(rows["input"], rows["simulated"], color=colour, linewidth=1.2, label=who)
+        axes.plot(measured["input"], measured["output"], color=MUTED, linewidth=2.6, alpha=0.55, label="measured")
+        for who, (rows, colour) in parts.items():
+            axes.plot(rows["input"], rows["simulated"], color=colour, linewidth=1.2, label=who)
         axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
-        axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=2, borderaxespad=0, handlelength=1.4)
+        legend(axes)
 
-    return picture(folder, name, (3.4, 3.1), f"Hysteresis loop, measured and simulated. {caption}", caption, draw)
+    return picture(
+        folder, name, (3.4, 3.1), alt=f"Hysteresis loop, measured and simulated. {caption}", caption=caption, draw=draw
+    )
 
 
-def errors(
-    folder: Path, name: str, parts: Mapping[str, tuple[pd.DataFrame, str]], units: Units, caption: str
-) -> Picture:
-    """Simulated minus measured over time, per cent of the largest measured |output|.
+def measured_loops(
+    folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str, most: int = len(SERIES)
+) -> Picture | None:
+    """The measured loops of all records in one figure; None where there is only one record, or too many."""
+    records = list(rows.groupby(["record", "role"], sort=False))
+    if not 1 < len(records) <= most:
+        return None
 
-    parts : name -> rows of one record and a colour
-    """
+    def draw(figure: Any) -> None:
+        axes = figure.add_subplot()
+        for ((record, _), part), colour in zip(records, SERIES, strict=False):
+            axes.plot(part["input"], part["output"], color=colour, linewidth=1.0, label=record)
+        axes.axhline(0, color=MUTED, linewidth=0.5)
+        axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
+        legend(axes)
+
+    return picture(
+        folder, name, (3.4, 3.6), alt=f"Measured hysteresis loops of all records. {caption}", caption=caption, draw=draw
+    )
+
+
+def errors(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:
+    """Simulated minus measured over time, per cent of the largest measured |output|."""
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
@@ -64,13 +82,13 @@ def errors(
         for who, (rows, colour) in parts.items():
             axes.plot(rows["time"], relative_error(rows), color=colour, linewidth=1.0, label=who)
         axes.set(xlabel=named("Time", units, "time"), ylabel="Error (% of largest output)")
-        axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=3, borderaxespad=0, handlelength=1.4)
+        legend(axes, 3)
 
-    return picture(folder, name, (4.6, 2.7), f"Error over time. {caption}", caption, draw)
+    return picture(folder, name, (4.6, 2.7), alt=f"Error over time. {caption}", caption=caption, draw=draw)
 
 
-def relative_error(rows: pd.DataFrame) -> np.ndarray:
+def relative_error(rows: pd.DataFrame) -> Array:
     """Simulated minus measured, per cent of the largest measured |output|."""
     measured = rows["output"].to_numpy(dtype=float)
     scale = float(np.max(np.abs(measured), initial=0.0)) or 1.0
-    return 100.0 * (rows["simulated"].to_numpy(dtype=float) - measured) / scale
+    return np.asarray(100.0 * (rows["simulated"].to_numpy(dtype=float) - measured) / scale)

@@ -69,12 +69,16 @@ class Picture:
 
 
 def picture(
-    folder: Path, name: str, size: tuple[float, float], alt: str, caption: str, draw: Callable[[Any], None]
+    folder: Path, name: str, size: tuple[float, float], *, alt: str, caption: str, draw: Callable[[Any], None]
 ) -> Picture:
-    """Draw on a figure of `size` inches, write figures/NAME.svg into the folder, and return both forms."""
+    """Draw on a figure of `size` inches, write figures/NAME.svg into the folder, and return both forms.
+
+    name : of the file; what no file name should hold becomes a hyphen
+    """
     import matplotlib
     from matplotlib.figure import Figure
 
+    name = re.sub(r"[^A-Za-z0-9-]+", "-", name).strip("-")
     with matplotlib.rc_context({**STYLE, "svg.hashsalt": name}):
         figure = Figure(figsize=size)
         draw(figure)
@@ -103,7 +107,12 @@ def inline(svg: str, name: str, alt: str) -> str:
     return re.sub(r"font: ([0-9.]+px|bold [0-9.]+px)[^;\"]*", r"font: \1 var(--sans)", body)
 
 
-def spread_labels(positions: Sequence[float], gap: float, low: float = 0.0, high: float = 1.0) -> list[float]:
+def legend(axes: Any, columns: int = 2) -> None:
+    """Above the axes, in one row where there is room."""
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, borderaxespad=0, handlelength=1.4)
+
+
+def spread_labels(positions: Sequence[float], gap: float, *, low: float = 0.0, high: float = 1.0) -> list[float]:
     """Positions of labels on an axis, in axes fractions, moved apart to at least `gap` and kept in order."""
     order = sorted(range(len(positions)), key=lambda i: positions[i])
     placed = [min(max(positions[i], low), high) for i in order]

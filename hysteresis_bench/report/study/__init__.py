@@ -1,4 +1,4 @@
-"""Reports: read results, write HTML, CSV and figures. Computes no trial."""
+"""The report of a study."""
 
 from __future__ import annotations
 
@@ -6,24 +6,35 @@ from pathlib import Path
 
 import pandas as pd
 
-from hysteresis_bench.report.study.summary import other_budgets, summarise
+from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.report.trials.summary import other_budgets, summarise
+from hysteresis_bench.study.afterwards.closing_files import CLOSING
 from hysteresis_bench.study.results import REPORT, SUMMARY, read_results
 
 __all__ = ["summarise", "write_report"]
 
 
-def write_report(folder: Path) -> Path:
-    """Write summary.csv, figures/*.svg and report.html into a results folder; returns the page.
+FROM_TABLES = "report-from-tables.html"
+"""The page where the course of the searches was not kept, beside one that was written when it was there."""
 
-    The same results give the same files. Raises UserError where the folder holds no study or its published
-    file has faults.
+
+def write_report(folder: Path) -> Path:
+    """Write summary.csv, figures/*.svg, report.html and closing/diagnosis.html into a results folder; returns the page.
+
+    The same results give the same files. Where trials.sqlite is not kept, a page and a summary that are there have
+    more than can be written again: they stay, and the page is `report-from-tables.html`.
+    Raises UserError where the folder holds no study or no trials, or its published file has faults.
     """
+    from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
     from hysteresis_bench.report.study.page import study_page
 
     results = read_results(folder)
+    richer = not results.traces and (folder / REPORT).is_file()
+    closing = results.closing
+    if closing and closing.finished and not closing.responses.empty and not richer:
+        write_diagnosis_page(folder / CLOSING)
     summary = summarise(results)
     parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
-    pd.concat(part for part in parts if not part.empty).to_csv(folder / SUMMARY, index=False)
-    page = folder / REPORT
-    page.write_text(study_page(results, summary, folder), encoding="utf-8")
-    return page
+    if not richer:
+        write_table(folder / SUMMARY, pd.concat(part for part in parts if not part.empty))
+    return study_page(results, summary, folder).write(folder / (FROM_TABLES if richer else REPORT))

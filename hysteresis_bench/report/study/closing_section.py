@@ -3,85 +3,53 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
-from hysteresis_bench.diagnosis.findings.terms import Equation
-from hysteresis_bench.report.diagnosis.before_after import besides_ties, errors_table, record_pictures, sentence
-from hysteresis_bench.report.diagnosis.figures import waterfall
-from hysteresis_bench.report.shared.page import Table, listed
-from hysteresis_bench.report.shared.theme import Picture
-from hysteresis_bench.study.closing_files import Closing
+from markupsafe import Markup
+
+from hysteresis_bench.diagnosis.findings.diagnosis_file import complete
+from hysteresis_bench.report.diagnosis.before_after import (
+    besides_ties,
+    errors_table,
+    record_blocks,
+    step_by_step,
+    ties_in_words,
+)
+from hysteresis_bench.report.diagnosis.page import FILE, description
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Figures, Paragraph
+from hysteresis_bench.report.shared.page import Section
+from hysteresis_bench.report.shared.text import listed, sentence
+from hysteresis_bench.study.afterwards.closing_files import CLOSING, Closing
 from hysteresis_bench.study.results import Results
 from hysteresis_bench.study.study_file import ClosingSpec
-
-NOTHING = Equation((), 0.0)
-"""As diagnosis.json tells of a residual that no terms describe."""
 
 PLACE = "closing"
 """What the names of the section's figures begin with."""
 
 
-@dataclass(frozen=True)
-class ClosingView:
-    """The section as the page shows it.
+def section(results: Results, folder: Path) -> Section | None:
+    """None where the study asks for no diagnosis; the section's figures are written to the folder.
 
-    verdict : in a sentence;  asked : what was fitted and held out;  says : the paper's own statement
-    records : heading, loop and residual of what was held out;  ties, caveats : as the diagnosis tells them
-    left : a formula that describes what is left, not physics;  advice : what to measure next
-    page : of the whole diagnosis, relative to the report
     Where the diagnosis did not finish, the verdict says so, and there are neither table nor figures.
     """
-
-    verdict: str
-    asked: list[str]
-    says: str
-    errors: Table | None
-    waterfall: Picture | None
-    records: list[tuple[str, Picture, Picture]]
-    ties: list[str]
-    caveats: list[str]
-    left: str
-    advice: str
-    page: str | None
-
-
-def closing_view(results: Results, folder: Path) -> ClosingView | None:
-    """None where the study asks for no diagnosis; the section's figures are written to the folder."""
     spec, closing = results.study.closing, results.closing
     if spec is None or closing is None:
         return None
-    asked = list(_asked(spec, closing))
-    if not closing.finished:
-        return ClosingView(closing_in_words(closing), asked, spec.says, None, None, [], [], [], "", "", None)
-    told, units = closing.diagnosis, closing.units
-    noise = told["noise_rms"] or 0.0
-    note = f"Relative to the largest |output − offset| measured. {sentence(told['noise']['words'])}"
-    steps = [(step["system"], step["rmse"]) for step in told["waterfall"]]
-    ends = told["before"]["held_out"]["rmse"], told["after"]["held_out"]["rmse"]
-    groups = [rows for _, rows in closing.responses.groupby("record", sort=False)]
-    return ClosingView(
-        told["headline"],
-        asked,
-        spec.says,
-        errors_table(told["before"], told["after"], noise, units, note),
-        waterfall(folder, steps, ends, units, f"{PLACE}-waterfall"),
-        [record_pictures(folder, f"{PLACE}-{i}", rows, noise, units) for i, rows in enumerate(groups, 1)],
-        [f"{tie['effect']} and {tie['rival']}: {tie['reason']}." for tie in told["ties"]],
-        besides_ties(told["warnings"], [(tie["effect"], tie["rival"]) for tie in told["ties"]]),
-        "" if told["unexplained"] in (None, str(NOTHING)) else told["unexplained"],
-        told["advice"] or "",
-        closing.page,
-    )
+    blocks: list[Block] = [f"The paper on what its model lacks: {spec.says}"] if spec.says else []
+    blocks += _asked(spec, closing)
+    if closing.finished:
+        blocks += _found(closing, folder)
+    else:
+        blocks.append(Paragraph(closing_in_words(closing), "strong"))
+    return Section("closing", "Closing the loop", blocks)
 
 
 def closing_in_words(closing: Closing) -> str:
     """One sentence: the verdict, or why there is none."""
     if closing.finished:
         return f"Closing the loop: {closing.diagnosis['headline']}"
-    return sentence(
-        f"The loop was not closed, the diagnosis has no result ({closing.told['status']}): {closing.told['reason']}"
-    )
+    status, reason = closing.outcome["status"], closing.outcome["reason"]
+    return sentence(f"The loop was not closed, the diagnosis has no result ({status}): {reason}")
 
 
 def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
@@ -90,6 +58,28 @@ def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
         f"Diagnosed: {spec.model}{known} fitted to {listed(spec.fitted)}. {listed(spec.held_out)} "
         f"{'was' if len(spec.held_out) == 1 else 'were'} held out: fitted by nobody, opened once, at the end."
     )
-    hidden = closing.told.get("hidden", [])
+    hidden = closing.outcome.get("hidden", [])
     if hidden:
         yield f"The virtual rig is built with {listed(hidden)}; the diagnosis was not told."
+
+
+def _found(closing: Closing, folder: Path) -> Iterator[Block]:
+    found, units = complete(closing.diagnosis), closing.units
+    noise = found["noise_rms"] or 0.0
+    yield Paragraph(found["headline"], "strong")
+    if found["ties"]:
+        yield "What these data cannot tell apart:"
+        yield Bullets(ties_in_words(found["ties"]))
+    if caveats := besides_ties(found["warnings"], found["ties"]):
+        yield "Before you believe it:"
+        yield Bullets(caveats)
+    yield errors_table(found, noise, units)
+    yield Figures([step_by_step(folder, found, units, name=f"{PLACE}-waterfall")])
+    held_out = closing.responses[closing.responses["role"] == "held-out"]
+    for i, (_, rows) in enumerate(held_out.groupby("record", sort=False), 1):
+        yield from record_blocks(folder, f"{PLACE}-{i}", rows, noise=noise, units=units)
+    yield from description(found)
+    if found["advice"]:
+        yield found["advice"]
+    link = Markup('<a href="{}">the whole diagnosis</a>').format(f"{CLOSING}/{FILE}")
+    yield Markup("Every candidate, test and parameter: {}.").format(link)

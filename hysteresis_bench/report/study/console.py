@@ -5,9 +5,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from hysteresis_bench import stats
-from hysteresis_bench.report.shared.page import NONE, number, percent, probability, seconds, whole
-from hysteresis_bench.report.study.summary import problems, summarise
-from hysteresis_bench.report.study.words import run_in_words
+from hysteresis_bench.report.shared.text import NONE, number, percent, probability, seconds, whole
+from hysteresis_bench.report.study import run
+from hysteresis_bench.report.trials.summary import problems, summarise
 from hysteresis_bench.study.results import Results
 
 if TYPE_CHECKING:
@@ -25,9 +25,9 @@ def print_summary(results: Results, console: Console) -> None:
         table.add_column("optimizer", no_wrap=True)
         for heading in ("median fitness", "relative RMS", "success", "evals to success", "time", "failed"):
             table.add_column(heading, justify="right")
-        if not (tell := len(problem.trials) >= stats.ENOUGH):
+        if not (enough := len(problem.trials) >= stats.ENOUGH):
             table.caption = f"against each other: {stats.TOO_FEW} ({stats.ENOUGH} are needed)"
-        table.add_column("against best" if tell else "", no_wrap=True)
+        table.add_column("against best" if enough else "", no_wrap=True)
         for _, row in summary[summary["problem"] == problem.name].iterrows():
             p = probability(row["p_best"])
             verdict = row["verdict_best"]
@@ -39,12 +39,12 @@ def print_summary(results: Results, console: Console) -> None:
                 whole(row["evaluations_to_success_median"]),
                 seconds(row["seconds_median"]),
                 str(row["failed"]) if row["failed"] else NONE,
-                _short(verdict, p) if tell else "",
+                _short(verdict, p) if enough else "",
                 style="bold" if row["optimizer"] == problem.winner else None,
             )
         console.print(table)
         console.print()
-    console.print(run_in_words(results.trials, here))
+    console.print(run.in_words(results.trials, here))
 
 
 def _short(verdict: str, p: str) -> str:

@@ -9,7 +9,8 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.report.shared.page import Cell, Table, number, percent, whole
+from hysteresis_bench.report.shared.blocks import Cell, Table
+from hysteresis_bench.report.shared.text import number, percent, whole
 
 RECOVERED = 1e-4
 """Largest relative error of anything that acts on the output, at which the truth counts as found."""
@@ -19,9 +20,9 @@ FITS = 0.01
 """Relative RMS below which an output counts as fitted."""
 
 
-def recovered(problem: str, told: Mapping[str, Any]) -> Table:
-    """told : the problem's "recovery" in the identifiability file. Closest median first."""
-    frame = pd.DataFrame(told["trials"])
+def recovered(problem: str, recovery: Mapping[str, Any]) -> Table:
+    """recovery : the problem's "recovery" in the identifiability file. Closest median first."""
+    frame = pd.DataFrame(recovery["trials"])
     rows: list[tuple[float, list[str | Cell]]] = []
     for label, trials in frame.groupby("optimizer", sort=False):
         acting = trials["combinations"].to_numpy()
@@ -38,7 +39,7 @@ def recovered(problem: str, told: Mapping[str, Any]) -> Table:
             whole(trials["evaluations"].astype(float).fillna(np.inf).median()),
         ]
         rows.append((float(np.median(acting)), row))
-    note = f"What acts on the output: {', '.join(told['combinations'])}. Found: every one of them within "
+    note = f"What acts on the output: {', '.join(recovery['combinations'])}. Found: every one of them within "
     note += f"{number(RECOVERED)} of the truth in every trial; nearly: within {percent(CLOSE)} in half of them. Only "
     note += f"fitted: neither, and yet a relative RMS below {percent(FITS)}."
     header = ["Optimizer", "The truth is", "Trials that found it", "Relative RMS, median"]

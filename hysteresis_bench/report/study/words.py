@@ -3,20 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 
 from hysteresis_bench import stats
-from hysteresis_bench.report.paper.claims import FAILS, HOLDS, Judged
-from hysteresis_bench.report.shared.page import listed, number, percent, probability, share
-from hysteresis_bench.report.study.summary import EQUAL, Problem
+from hysteresis_bench.report.paper import claims
+from hysteresis_bench.report.shared.text import listed, number, percent
+from hysteresis_bench.report.trials.problem import EQUAL, Problem
 
 
-def answer(problems: list[Problem], summary: pd.DataFrame, judged: list[Judged]) -> list[str]:
-    """A sentence or two a problem, then one a claim about fitness."""
-    told = [_winner(problem, summary[summary["problem"] == problem.name]) for problem in problems]
-    return told + [claim_in_words(judged, says) for says in dict.fromkeys(found.claim.says for found in judged)]
+def answer(problems: Sequence[Problem], summary: pd.DataFrame, judged: Sequence[claims.Judged]) -> list[str]:
+    """A sentence or two a problem, then one a claim."""
+    winners = [_winner(problem, summary[summary["problem"] == problem.name]) for problem in problems]
+    return winners + claims.in_words(judged)
 
 
 def _winner(problem: Problem, rows: pd.DataFrame) -> str:
@@ -60,35 +61,3 @@ def _apart(problem: Problem) -> str:
     rest = others - len(same)
     apart = f" The trials tell it apart from the other {rest}." if rest else ""
     return f"We cannot tell it apart from {listed(same, 8)}.{apart}"
-
-
-def claim_in_words(judged: list[Judged], says: str) -> str:
-    """The paper's claim: where it holds, where not, where nobody can tell."""
-    parts = []
-    for found in (found for found in judged if found.claim.says == says):
-        numbers = ""
-        if found.verdict in (HOLDS, FAILS):
-            p = probability(found.p)
-            effect = stats.magnitude(found.a12 or 0.0)
-            numbers = f" (p {p if p.startswith('<') else f'= {p}'}, A12 = {share(found.a12)}, {effect} effect)"
-        elif found.why:
-            numbers = f" ({found.why})"
-        told = found.why if found.why == stats.SAME else f"{_here(found.verdict)}{numbers}"
-        parts.append(f"on “{found.problem}” {told}")
-    return f"The paper says: {says}. Here, {listed(parts)}."
-
-
-def _here(verdict: str) -> str:
-    return {HOLDS: "this holds", FAILS: "this does not hold; the contrary does"}.get(verdict, "we cannot tell")
-
-
-def run_in_words(trials: pd.DataFrame, problems: list[Problem]) -> str:
-    """How many trials of what, and how many failed."""
-    failed = int(trials["fitness"].isna().sum())
-    labels = {label for problem in problems for label in problem.labels}
-    least = min((len(problem.trials) for problem in problems), default=0)
-    fate = "none failed" if failed == 0 else f"{failed} failed and rank as infinitely bad"
-    return (
-        f"{len(trials)} trials: {len(labels)} optimizers on {len(problems)} problem{'s' * (len(problems) != 1)}, "
-        f"{least} trials that all of them have; {fate}."
-    )

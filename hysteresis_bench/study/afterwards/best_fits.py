@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import pandas as pd
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.fit.identifiability import analyse, profile
+from hysteresis_bench.fit.accuracy import response_table, simulated
+from hysteresis_bench.fit.identifiability.analysis import analyse, profile
+from hysteresis_bench.fit.least_squares import polish
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.fit.search import polish
 from hysteresis_bench.study.afterwards.recovery import recovery
 from hysteresis_bench.study.problems import Built
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import Study
 
 PROFILE_POINTS = 13
+RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
 
 
 def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
@@ -25,23 +27,13 @@ def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
     parts = []
     for problem, optimizer, values in _best(trials, built, by_optimizer=True):
         system, dataset = built[problem].problem.system, built[problem].dataset
-        for record in dataset.records:
-            columns: dict[str, Any] = {
-                "problem": problem,
-                "optimizer": optimizer,
-                "record": record.name,
-                "role": "held-out" if record.name in dataset.held_out_names else "fitted",
-                "time": record.time[record.scored],
-                "input": record.input[record.scored],
-                "output": record.measured,
-                "simulated": system.respond(record, values[:, None])[record.scored, 0],
-            }
-            parts.append(pd.DataFrame(columns))
+        table = response_table(dataset, {"simulated": simulated(system, dataset.records, values)})
+        parts.append(table.assign(problem=problem, optimizer=optimizer)[list(RESPONSE_COLUMNS)])
     return pd.concat(parts) if parts else pd.DataFrame()
 
 
 def identifiability(
-    study: Study, trials: pd.DataFrame, traces: Mapping[tuple[str, str, int], Trace], built: Mapping[str, Built]
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, traces: Mapping[tuple[str, str, int], Trace]
 ) -> dict[str, Any]:
     """Per problem, at the polished best of all trials: rank, standard errors, sentences, profiles.
 
@@ -49,16 +41,16 @@ def identifiability(
     how far from it every trial ended.
     """
     profiled = {spec.name: spec.profile for spec in study.problem}
-    told: dict[str, Any] = {}
+    found: dict[str, Any] = {}
     for problem, _, best in _best(trials, built, by_optimizer=False):
         of = built[problem].problem
         values = polish(of, best)
         try:
             analysis = analyse(of, values)
         except ValueError as error:
-            told[problem] = {"fault": str(error)}
+            found[problem] = {"fault": str(error)}
             continue
-        told[problem] = {
+        found[problem] = {
             "names": list(analysis.names),
             "units": [parameter.unit_in(built[problem].dataset.units) for parameter in of.space.parameters],
             "values": analysis.values.tolist(),
@@ -70,10 +62,10 @@ def identifiability(
             "sentences": list(analysis.sentences()),
             "profiles": [_profile(of, name, values) for name in profiled[problem]],
         }
-    for problem in told:
-        if found := recovery(trials[trials["problem"] == problem], built[problem], traces):
-            told[problem]["recovery"] = found
-    return told
+    for problem in found:
+        if recovered := recovery(trials[trials["problem"] == problem], built[problem], traces):
+            found[problem]["recovery"] = recovered
+    return found
 
 
 def _profile(of: Any, name: str, values: Array) -> dict[str, Any]:
@@ -83,17 +75,21 @@ def _profile(of: Any, name: str, values: Array) -> dict[str, Any]:
     points = np.repeat(middle, PROFILE_POINTS, axis=1)
     points[row] = np.clip(np.linspace(middle[row, 0] - 0.2, middle[row, 0] + 0.2, PROFILE_POINTS), 0.0, 1.0)
     grid = np.unique(of.space.from_unit(points)[row])
-    found = profile(of, name, grid, values)
+    found = profile(of, name, grid, values=values)
     return {"name": name, "grid": found.grid.tolist(), "ratio": found.ratio.tolist()}
+
+
+def best_of(trials: pd.DataFrame, names: Sequence[str]) -> tuple[str, Array]:
+    """The optimizer and the parameters, (dimension,) in units, of the trial with the lowest fitness."""
+    best = trials.loc[trials["fitness"].idxmin()]
+    return best["optimizer"], best[[f"parameter.{name}" for name in names]].to_numpy(dtype=float)
 
 
 def _best(trials: pd.DataFrame, built: Mapping[str, Built], by_optimizer: bool) -> Iterator[tuple[str, str, Array]]:
     """(problem, optimizer, values) of the trial with the lowest fitness, a problem or an optimizer of it."""
     finished = trials[trials["status"].isin(FINISHED) & trials["problem"].isin(list(built))]
-    for _, rows in finished.groupby(["problem", "optimizer"] if by_optimizer else ["problem"], sort=False):
-        best = rows.loc[rows["fitness"].idxmin()]
-        names = [f"parameter.{name}" for name in built[best["problem"]].problem.space.names]
-        yield best["problem"], best["optimizer"], best[names].to_numpy(dtype=float)
+    for key, rows in finished.groupby(["problem", "optimizer"] if by_optimizer else ["problem"], sort=False):
+        yield key[0], *best_of(rows, built[key[0]].problem.space.names)
 
 
 def _absent(numbers: Array) -> list[float | None]:

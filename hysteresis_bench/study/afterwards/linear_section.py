@@ -11,15 +11,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse
+from hysteresis_bench.fit.least_squares import at_bound, polish
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.search import polish
 from hysteresis_bench.parameters import Space
 
 REACH = 10.0
 """The output-error fit searches from a tenth to ten times what the regression gives."""
-EDGE = 1e-4
-"""A parameter this near a wall of that box, as a share of it, has run into it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,8 +51,7 @@ def fitted(problem: Problem, inputs: Sequence[Array]) -> LinearSection:
     walls = [parameter.within(low, high, "linear") for parameter, low, high in boxes]
     boxed = replace(problem, space=Space(tuple(walls)))
     values = polish(boxed, start)
-    place = boxed.space.to_unit(values[:, None])[:, 0]
-    stuck = [name for name, x in zip(problem.space.names, place, strict=True) if min(x, 1.0 - x) < EDGE]
+    stuck = [name for name, edge in zip(problem.space.names, at_bound(boxed.space, values), strict=True) if edge]
     if stuck:
         return LinearSection(values, unknown, f"no optimum near the regression: {', '.join(stuck)} left its box")
     return LinearSection(values, analyse(boxed, values).standard_errors)
@@ -92,7 +89,8 @@ def regressed(records: Sequence[tuple[Array, Array, Array]]) -> Array:
     scale = np.linalg.norm(matrix, axis=0)
     if not np.all(scale > 0.0):
         return np.full(3, np.nan)
-    return np.linalg.lstsq(matrix / scale, side, rcond=None)[0] / scale
+    section: Array = np.linalg.lstsq(matrix / scale, side, rcond=None)[0] / scale
+    return section
 
 
 def _fastest(time: Array, v: Array) -> float:

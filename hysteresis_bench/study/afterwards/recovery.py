@@ -11,7 +11,7 @@ from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.fit.identifiability import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.problems import Built
 from hysteresis_bench.study.results import FINISHED

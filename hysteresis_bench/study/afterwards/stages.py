@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -10,21 +10,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.contracts import Rig
-from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.control.comparison import compare, stepped_rig
+from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
+from hysteresis_bench.study.afterwards.best_fits import RESPONSE_COLUMNS, best_of
 from hysteresis_bench.study.afterwards.linear_section import fitted
 from hysteresis_bench.study.problems import Built, build_problem, build_system
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import StageSpec, Study
-
-ClosedLoop = Callable[[FittedModel, Rig, str, int], pd.DataFrame]
-"""(fitted model, rig, the rig's name, seed) -> a row a controller and reference; it comes from the floor above."""
 
 COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")
 STAGED, HELD, FITTED, LARGEST, RMSE = "staged", "held", "fitted", "largest error", "rmse"
@@ -48,12 +45,11 @@ class Whole:
 
 
 def run_stages(
-    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], folder: Path, closed_loop: ClosedLoop | None = None
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, folder: Path
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses.
 
-    folder : where relative data files are looked for; closed_loop : runs the controllers of a stage that asks for
-    control, which is left out without. An absent number is None: the errors of a section that
+    folder : where relative data files are looked for. An absent number is None: the errors of a section that
     is unstable, a standard error that the data cannot tell. Errors are in units of the output.
     """
     rows: list[dict[str, Any]] = []
@@ -63,14 +59,19 @@ def run_stages(
         for whole in _wholes(stage, trials, built, data):
             about = {"stage": stage.name, "optimizer": whole.optimizer, "way": whole.way, "fault": whole.fault}
             rows += [about | row for row in whole.rows]
-            for record in data.dataset.records:
-                role = "check" if record.name in stage.check else "fitted"
-                simulated = None if whole.fault else _simulated(whole, record)
-                rows += [about | row for row in _errors(record, simulated)]
-                if simulated is not None and whole.way == STAGED and role == "check":
-                    parts.append(_response(stage.name, whole.optimizer, record, role, simulated))
-            if closed_loop and whole.optimizer in stage.control and whole.way == STAGED and not whole.fault:
-                rows += [about | row for row in _tracked(stage, study, whole, data, closed_loop)]
+            if whole.fault:
+                rows += [about | row for record in data.dataset.records for row in _errors(record, None)]
+                continue
+            found = simulated(whole.system, data.dataset.records, whole.values)
+            for record, response in zip(data.dataset.records, found, strict=True):
+                rows += [about | row for row in _errors(record, response)]
+            if whole.way == STAGED:
+                table = response_table(data.dataset, {"simulated": found})
+                checked = table[table["record"].isin(stage.check)]
+                named = checked.assign(problem=stage.name, optimizer=whole.optimizer, role="check")
+                parts.append(named[list(RESPONSE_COLUMNS)])
+            if whole.optimizer in stage.control and whole.way == STAGED:
+                rows += [about | row for row in _tracked(stage, study, whole, data)]
     return pd.DataFrame(rows, columns=list(COLUMNS)), pd.concat(parts) if parts else pd.DataFrame()
 
 
@@ -92,10 +93,10 @@ def _wholes(stage: StageSpec, trials: pd.DataFrame, built: Mapping[str, Built], 
     of = built[stage.beside].problem
     for label, found in _best(trials, stage.beside, built, stage.optimizers):
         values = np.array([found[name] for name in of.space.names])
-        told = [(HELD, name, value) for name, value in of.system.fixed.items()]
-        told += [(FITTED, name, value) for name, value in found.items()]
+        known = [(HELD, name, value) for name, value in of.system.fixed.items()]
+        known += [(FITTED, name, value) for name, value in found.items()]
         units = _units(data)
-        rows = tuple(_row(quantity, name, value, units.get(name, "1")) for quantity, name, value in told)
+        rows = tuple(_row(quantity, name, value, units.get(name, "1")) for quantity, name, value in known)
         yield Whole(label, stage.beside, of.system, values, rows)
 
 
@@ -108,9 +109,8 @@ def _best(
     for label in [*labels, BEST]:
         rows = finished if label == BEST else finished[finished["optimizer"] == label]
         if not rows.empty:
-            best = rows.loc[rows["fitness"].idxmin()]
-            told = f"{BEST} ({best['optimizer']})" if label == BEST else label
-            yield told, {name: float(best[f"parameter.{name}"]) for name in names}
+            winner, values = best_of(rows, names)
+            yield f"{BEST} ({winner})" if label == BEST else label, dict(zip(names, map(float, values), strict=True))
 
 
 def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: System, data: Built) -> Whole:
@@ -128,9 +128,7 @@ def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: Sy
     return Whole(label, STAGED, system, section.values, tuple(rows), section.fault)
 
 
-def _tracked(
-    stage: StageSpec, study: Study, whole: Whole, data: Built, closed_loop: ClosedLoop
-) -> Iterator[dict[str, Any]]:
+def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Iterator[dict[str, Any]]:
     """Every controller along every reference, on the rig; a row with the fault where the model allows none."""
     after = next(spec for spec in study.problem if spec.name == stage.after)
     assert after.rig is not None
@@ -138,9 +136,9 @@ def _tracked(
     estimates = {name: Estimate(row["value"], row["standard_error"], row["unit"]) for name, row in found.items()}
     error = {"fitted": accuracy(whole.system, data.dataset.fitted, whole.values).as_dict()}
     fitted_model = FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
-    rig = registry.build("rigs", after.rig, after.rig_settings)
     try:
-        scores = closed_loop(fitted_model, rig, after.rig, study.seed)
+        rig = stepped_rig(after.rig, after.rig_settings)
+        scores = compare(fitted_model, rig, after.rig, seed=study.seed).scores
     except ValueError as fault:
         yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
         return
@@ -149,16 +147,12 @@ def _tracked(
             yield _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
 
 
-def _simulated(whole: Whole, record: Record) -> Array:
-    """(scored samples,)"""
-    return whole.system.respond(record, whole.values[:, None])[record.scored, 0]
-
-
-def _errors(record: Record, simulated: Array | None) -> list[dict[str, Any]]:
+def _errors(record: Record, response: Array | None) -> list[dict[str, Any]]:
+    """response : (scored samples,), None where there is none"""
     unit = record.units.get("output", "1")
-    if simulated is None:
+    if response is None:
         return [_row(quantity, record.name, None, unit) for quantity in (LARGEST, RMSE)]
-    error = simulated - record.measured
+    error = response - record.measured
     return [
         _row(LARGEST, record.name, float(np.max(np.abs(error))), unit),  # PEA paper (12)
         _row(RMSE, record.name, float(np.sqrt(np.mean(error**2))), unit),  # PEA paper (13)
@@ -166,24 +160,12 @@ def _errors(record: Record, simulated: Array | None) -> list[dict[str, Any]]:
 
 
 def _row(quantity: str, name: str, value: float | None, unit: str, error: float = np.inf) -> dict[str, Any]:
-    told = {"value": value, "standard_error": error}
-    absent = {key: None if number is None or not np.isfinite(number) else float(number) for key, number in told.items()}
-    return {"quantity": quantity, "name": name, **absent, "unit": unit}
+    numbers = {"value": value, "standard_error": error}
+    known = {
+        key: None if number is None or not np.isfinite(number) else float(number) for key, number in numbers.items()
+    }
+    return {"quantity": quantity, "name": name, **known, "unit": unit}
 
 
 def _units(data: Built) -> dict[str, str]:
     return {parameter.name: parameter.unit_in(data.dataset.units) for parameter in data.problem.space.parameters}
-
-
-def _response(stage: str, optimizer: str, record: Record, role: str, simulated: Array) -> pd.DataFrame:
-    columns: dict[str, Any] = {
-        "problem": stage,
-        "optimizer": optimizer,
-        "record": record.name,
-        "role": role,
-        "time": record.time[record.scored],
-        "input": record.input[record.scored],
-        "output": record.measured,
-        "simulated": simulated,
-    }
-    return pd.DataFrame(columns)

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import largest_input, motionless
+
+
+def _signed(inner: Response, u: Array, hiding: Hiding) -> Array:
+    bend = np.sign(hiding.random[0] - 0.5) * 0.45 * hiding.strength
+    return inner(u * (1.0 + bend * u / hiding.amplitude))
+
+
+def _bent(inner: Response, u: Array, hiding: Hiding) -> Array:
+    bend = (0.1 + 0.2 * hiding.strength) * (1 if hiding.random[0] > 0.5 else -1)
+    return inner(u * (1.0 + bend * u / hiding.amplitude))
 
 
 @dataclass(frozen=True)
@@ -28,6 +38,14 @@ class Asymmetry(Effect):
     [1] F. Giri, E.-W. Bai (eds.), Block-oriented Nonlinear System Identification, Springer (2010).
     """
 
+    acts = "input"
+    family = "curve of the input"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "saturation": (
+            "off the middle of the loop, a bend of the input and a bend of the output are the same to first order"
+        ),
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_signed, _bent)
     parameters = (Parameter("curvature", -0.45, 0.45, "1/{input}", null=0.0, meaning="of the input's action"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import input_span, motionless
+
+
+def _clipped(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A body that is kept between two walls around it."""
+    half = 0.25 * hiding.strength * hiding.amplitude
+    out, body = np.empty_like(u), float(u[0])
+    for k, middle in enumerate(u.tolist()):
+        body = float(np.clip(body, middle - half, middle + half))
+        out[k] = body
+    return inner(out)
+
+
+def _pushed(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A body that is pushed by two walls that move with the input."""
+    half = (0.3 + 0.15 * hiding.strength) * hiding.amplitude
+    out, body = np.empty_like(u), float(u[0])
+    for k, wall in enumerate(u.tolist()):
+        if wall - half > body:
+            body = wall - half
+        elif wall + half < body:
+            body = wall + half
+        out[k] = body
+    return inner(out)
 
 
 @dataclass(frozen=True)
@@ -25,6 +48,13 @@ class Backlash(Effect):
     [1] M. Brokate, J. Sprekels, Hysteresis and Phase Transitions, Springer (1996), chapter 2.
     """
 
+    acts = "input"
+    family = "law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "rayleigh-hysteresis": "both make the loop wider with the amplitude",
+        "input-lag": "at one amplitude and frequency both shift the loop after a reversal",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_clipped, _pushed)
     parameters = (Parameter("half_width", 0.0, 1.0, "{input}", null=0.0, meaning="of the dead band"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

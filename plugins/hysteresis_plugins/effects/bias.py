@@ -18,10 +18,14 @@ from hysteresis_bench.signals import Record, Signal
 class Bias(Effect):
     """One constant on the output of all records: y + offset."""
 
+    acts = "added"
+    family = "curve of the output"
+    nuisance = True
     parameters = (Parameter("offset", -1.0, 1.0, unit="{output}", null=0.0, meaning="added to the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        return inner(signal) + p.offset
+        shifted: Array = inner(signal) + p.offset
+        return shifted
 
     def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         return np.asarray(p.offset)

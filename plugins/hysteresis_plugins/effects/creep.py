@@ -2,17 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import euler_lag, tustin_lag
 from hysteresis_plugins.effects._ranges import finest_step, longest, unresolved
+
+
+def _euler(inner: Response, u: Array, hiding: Hiding) -> Array:
+    y, late = inner(u), 0.6 * hiding.strength / 3.0
+    times = 0.16 / hiding.fastest * 8.0 ** hiding.random[0] * np.array([0.3, 1.0, 3.0])
+    return (1.0 - 3.0 * late) * y + late * sum(euler_lag(y, float(tau), hiding.step) for tau in times)
+
+
+def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
+    y = inner(u)
+    late = (0.12 + 0.2 * hiding.strength) * y / 3.0
+    mean = 0.01 * hiding.duration * 10.0 ** hiding.random[0]
+    return y + sum(tustin_lag(late, mean * 10.0**decade, hiding.step) - late for decade in (-0.6, 0.0, 0.6))
 
 
 @dataclass(frozen=True)
@@ -33,6 +47,15 @@ class Creep(Effect):
     Instruments 71 (2000) 1896-1900.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "drift": "creep that is slow against the record is a straight line in time",
+        "input-lag": "both let a part of the response arrive late",
+        "resonance": "both let a part of the response arrive late",
+        "transport-delay": "both let the response arrive late; they differ in how it depends on speed",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
     parameters = (
         Parameter("share", 0.0, 0.9, null=0.0, meaning="of the relaxed response that arrives late"),
         Parameter("time_constant", 1e-3, 1e2, "{time}", "log", meaning="geometric mean of the relaxations'"),

@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import longest, output_span, without_time
+
+
+def _steady(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) + hiding.strength * hiding.top * hiding.time / hiding.duration
+
+
+def _faster(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) + (0.15 + 0.2 * hiding.strength) * hiding.top * hiding.time / hiding.duration
 
 
 @dataclass(frozen=True)
@@ -22,6 +30,12 @@ class Drift(Effect):
     [1] JCGM 200:2012, International vocabulary of metrology, 4.21 instrumental drift.
     """
 
+    acts = "added"
+    family = "change with time, path or temperature"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "temperature-sensitivity": "the temperature changed steadily with time, so that either may move the zero",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_steady, _faster)
     parameters = (Parameter("rate", -1.0, 1.0, "{output}/{time}", null=0.0, meaning="of the output's zero"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import path
 from hysteresis_plugins.effects._ranges import input_span, motionless
 
 SHORTEST = 4.0
 """Paths of the input, in ranges of it, below which a decay looks like a part of the loop: two cycles."""
+
+
+def _tired(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) * np.exp2(-3.0 * hiding.strength * (path(hiding.drive) / (40.0 * hiding.amplitude)))
+
+
+def _worn(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) * np.exp2(-(0.3 + 0.5 * hiding.strength) * (path(hiding.drive) / (20.0 * hiding.amplitude)))
 
 
 @dataclass(frozen=True)
@@ -32,10 +41,20 @@ class Fatigue(Effect):
     Mechanics Division 107 (1981) 1069-1087.
     """
 
+    acts = "output"
+    family = "change with time, path or temperature"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "drift": "over one cycle count and amplitude, a loop that shrinks also moves its ends",
+        "temperature-sensitivity": (
+            "the temperature changed along with the path travelled, so that either may scale the response"
+        ),
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_tired, _worn)
     parameters = (Parameter("rate", 0.0, 1.0, "1/{input}", null=0.0, meaning="loss of amplitude a path"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        return inner(signal) * np.exp(-p.rate * _path(signal.input))
+        tired: Array = inner(signal) * np.exp(-p.rate * _path(signal.input))
+        return tired
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Up to a fall by a factor e³ in the record with the longest path."""
@@ -53,4 +72,5 @@ class Fatigue(Effect):
 
 def _path(values: Array) -> Array:
     """Length of the path since the first sample, same shape."""
-    return np.cumsum(np.abs(np.diff(values, axis=0, prepend=values[:1])), axis=0)
+    travelled: Array = np.cumsum(np.abs(np.diff(values, axis=0, prepend=values[:1])), axis=0)
+    return travelled

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import euler_lag, longest_lag, middling_lag, tustin_lag
 from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
+
+
+def _euler(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(euler_lag(u, longest_lag(hiding), hiding.step))
+
+
+def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(tustin_lag(u, middling_lag(hiding), hiding.step))
 
 
 @dataclass(frozen=True)
@@ -28,6 +37,20 @@ class InputLag(Effect):
     [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), first-order systems.
     """
 
+    acts = "input"
+    family = "linear dynamics before the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "transport-delay": (
+            "at one frequency, after the transient, a lag before a rate-independent hysteresis and a delay both only "
+            "shift the loop in time; they differ in how the shift depends on the frequency"
+        ),
+        "output-lag": (
+            "a small lag before the hysteresis and one after it differ only at second order in frequency times lag, "
+            "where the loop is not a straight line"
+        ),
+        "resonance": "an overdamped resonance is a lag, here on the other side of the hysteresis",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

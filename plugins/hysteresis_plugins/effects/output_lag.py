@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import euler_lag, longest_lag, middling_lag, tustin_lag
 from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
+
+
+def _euler(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return euler_lag(inner(u), longest_lag(hiding), hiding.step)
+
+
+def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return tustin_lag(inner(u), middling_lag(hiding), hiding.step)
 
 
 @dataclass(frozen=True)
@@ -26,6 +35,17 @@ class OutputLag(Effect):
     [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), first-order systems.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "creep": "creep with one relaxation and nearly the whole response late is a lag",
+        "resonance": "an overdamped resonance is a lag",
+        "transport-delay": (
+            "a lag that is short against the fastest movement is a delay to first order; it differs in the damping of "
+            "what is fast"
+        ),
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

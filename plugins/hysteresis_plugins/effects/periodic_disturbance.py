@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import (
@@ -34,6 +34,18 @@ MOST_LINES = 1 << 18
 """Frequencies looked at, from the lowest; only a long record beside a finely sampled one has more."""
 
 
+def _hum(inner: Response, u: Array, hiding: Hiding) -> Array:
+    frequency = 2.75 * hiding.fastest + 6.25 * hiding.fastest * hiding.random[0]
+    swing = 0.3 * hiding.strength * hiding.top
+    return inner(u) + swing * np.cos(2.0 * np.pi * (frequency * hiding.time + hiding.random[1]))
+
+
+def _slower_hum(inner: Response, u: Array, hiding: Hiding) -> Array:
+    frequency = 73.0 / hiding.duration + 90.0 / hiding.duration * hiding.random[1]
+    swing = (0.06 + 0.06 * hiding.strength) * hiding.top
+    return inner(u) + swing * np.cos(2 * np.pi * (frequency * hiding.time - hiding.random[0]))
+
+
 @dataclass(frozen=True)
 class PeriodicDisturbance(Effect):
     """A sinusoid of unknown frequency is added to the output, such as the hum of the mains.
@@ -47,6 +59,13 @@ class PeriodicDisturbance(Effect):
     [1] B. G. Quinn, E. J. Hannan, The Estimation and Tracking of Frequency, Cambridge University Press (2001).
     """
 
+    acts = "added"
+    family = "added disturbance"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "drift": "less than a period of a slow disturbance is a drift",
+        "input-lag": "with a periodic input, a disturbance of its frequency shifts the loop as a lag does",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_hum, _slower_hum)
     parameters = (
         Parameter("cosine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude in phase with t = 0"),
         Parameter("sine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude a quarter period later"),
@@ -110,7 +129,8 @@ def _without_drive(record: Record, residual: Array, drive: float) -> Array:
     orders = [k for k in range(1, HARMONICS + 1) if k * drive < 0.4 * time.size / duration(record)]
     waves = [wave(k * turns) for k in orders for wave in (np.cos, np.sin)]
     columns = np.column_stack([np.ones(time.size), time - time[0], *waves])
-    return residual - columns @ np.linalg.lstsq(columns, residual, rcond=None)[0]
+    drift_and_drive: Array = columns @ np.linalg.lstsq(columns, residual, rcond=None)[0]
+    return residual - drift_and_drive
 
 
 def _amplitudes(records: Sequence[Record], residuals: Sequence[Array], frequency: float) -> dict[str, float]:

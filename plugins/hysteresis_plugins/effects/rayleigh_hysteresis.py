@@ -4,15 +4,34 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import input_span, motionless, output_span
+
+PLAYS = 200
+
+
+def plays(u: Array, widest: float) -> Array:
+    """The irreversible part of Rayleigh's law as equally dense play operators, half widths from 0 to the widest that
+    moves; u : (samples,), the virgin curve starts at the first sample."""
+    half = (np.arange(PLAYS) + 0.5) * widest / PLAYS
+    body, out = np.full(PLAYS, float(u[0])), np.empty_like(u)
+    for k, middle in enumerate(u.tolist()):
+        np.clip(body, middle - half, middle + half, out=body)
+        out[k] = np.mean(body)
+    grown: Array = widest * (out - u[0])
+    return grown
+
+
+def _plays(inner: Response, u: Array, hiding: Hiding) -> Array:
+    largest = 2.0 * hiding.strength * hiding.top / hiding.amplitude**2
+    return inner(u) + largest * plays(u, float(np.ptp(u)))
 
 
 @dataclass(frozen=True)
@@ -28,6 +47,9 @@ class RayleighHysteresis(Effect):
     [2] D. Damjanovic, M. Demartin, J. Phys. D 29 (1996) 2057.
     """
 
+    acts = "law"
+    family = "law"
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_plays,)
     parameters = (
         Parameter("coefficient", 0.0, 1.0, "{output}/{input}^2", null=0.0, meaning="growth of the slope of loops"),
     )

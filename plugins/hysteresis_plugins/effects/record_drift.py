@@ -24,6 +24,9 @@ class RecordDrift(Effect):
     output is given none, as its drift is not known. What all records share is `drift`.
     """
 
+    acts = "added"
+    family = "change with time, path or temperature"
+    nuisance = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
@@ -35,8 +38,9 @@ class RecordDrift(Effect):
         scored = record.time[record.scored]
         since = scored - np.mean(scored)
         left = record.measured[:, None] - simulated[record.scored]
-        slope = since @ left / (since @ since)
-        return simulated + (record.time - np.mean(scored))[:, None] * slope
+        slope: Array = since @ left / (since @ since or 1.0)  # a single sample has no slope
+        line: Array = (record.time - np.mean(scored))[:, None] * slope
+        return simulated + line
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return without_time(records)

@@ -22,6 +22,9 @@ class RecordOffset(Effect):
     `default` is what a record without an output is given; the median of a fit's records.
     """
 
+    acts = "added"
+    family = "change with time, path or temperature"
+    nuisance = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     default: float = 0.0
@@ -35,7 +38,8 @@ class RecordOffset(Effect):
     def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         if record.output is None:
             return np.full(simulated.shape[1], self.default)
-        return np.mean(record.measured) - np.mean(simulated[record.scored], axis=0)
+        missing: Array = np.mean(record.measured) - np.mean(simulated[record.scored], axis=0)
+        return missing
 
     def remembered(self, offsets: Sequence[float]) -> RecordOffset:
         return replace(self, default=float(np.median(offsets)))

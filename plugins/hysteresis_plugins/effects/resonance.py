@@ -2,17 +2,40 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import tustin
 from hysteresis_plugins.effects._ranges import one_frequency
+
+
+def _semi_implicit(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A mass on a spring and damper, semi-implicit Euler in ten parts of a step."""
+    x = inner(u)
+    omega = 2.0 * np.pi / (0.08 / hiding.fastest + 0.72 / hiding.fastest * hiding.strength)
+    damping, part = 0.1 + 0.4 * hiding.random[0], hiding.step / 10.0
+    out, place, speed = np.empty_like(x), float(x[0]), 0.0
+    out[0] = place
+    for k in range(1, x.size):
+        for j in range(10):
+            target = x[k - 1] + (x[k] - x[k - 1]) * (j + 0.5) / 10.0
+            speed += part * (omega**2 * (target - place) - 2.0 * damping * omega * speed)
+            place += part * speed
+        out[k] = place
+    return out
+
+
+def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
+    natural = 2 * np.pi * hiding.fastest * (3.0 + 3.0 * (1.0 - hiding.strength))
+    damping = 0.05 + 0.25 * hiding.random[0]
+    return tustin(inner(u), [natural**2], [1.0, 2.0 * damping * natural, natural**2], hiding.step)
 
 
 @dataclass(frozen=True)
@@ -26,6 +49,12 @@ class Resonance(Effect):
     lag vanishes with it.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "transport-delay": "far below its natural frequency a damped resonance only delays",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_semi_implicit, _tustin)
     parameters = (
         Parameter("period", 0.0, 0.1, unit="{time}", null=0.0, meaning="1 / undamped natural frequency"),
         Parameter("damping", 0.02, 2.0, scaling="log", meaning="damping ratio, 1 is critical"),

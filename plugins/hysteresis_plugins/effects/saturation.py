@@ -4,15 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import output_span
+
+
+def _gentle(inner: Response, u: Array, hiding: Hiding) -> Array:
+    twice = 2.0 * hiding.strength
+    return np.tanh(twice * inner(u) / hiding.top) * hiding.top / twice
+
+
+def _strong(inner: Response, u: Array, hiding: Hiding) -> Array:
+    level = hiding.top * (0.35 + 0.2 * (1.0 - hiding.strength))
+    return level * np.tanh(inner(u) / level)
 
 
 @dataclass(frozen=True)
@@ -29,6 +39,9 @@ class Saturation(Effect):
     2nd European Conference on Satellite Communications (1991) 179-184.
     """
 
+    acts = "output"
+    family = "curve of the output"
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_gentle, _strong)
     parameters = (
         Parameter("inverse_level", 0.0, 1.0, "1/{output}", null=0.0, meaning="1 / the largest |output|"),
         Parameter("sharpness", 1.0, 20.0, scaling="log", meaning="of the bend, n"),
@@ -40,7 +53,8 @@ class Saturation(Effect):
             excess = np.abs(p.inverse_level * output)
             # the powers of the smaller of excess and 1 / excess, so that none overflows
             folded = np.exp(-np.log1p(np.minimum(excess, 1.0 / excess) ** p.sharpness) / p.sharpness)
-            return np.where(excess <= 1.0, output * folded, np.sign(output) * folded / p.inverse_level)
+            bent: Array = np.where(excess <= 1.0, output * folded, np.sign(output) * folded / p.inverse_level)
+        return bent
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Levels from 0.45 times the output's range, less than which a symmetric output would not pass."""

@@ -4,15 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import output_span
+
+
+def _scaled(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) * (1.0 + 0.04 * hiding.strength * (hiding.temperature - 20.0))
+
+
+def _steeper(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) * (1.0 + (0.01 + 0.005 * hiding.strength) * (hiding.temperature - 20.0))
 
 
 @dataclass(frozen=True)
@@ -29,6 +37,9 @@ class TemperatureSensitivity(Effect):
     quantities, ambient temperature.
     """
 
+    acts = "output"
+    family = "change with time, path or temperature"
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_scaled, _steeper)
     parameters = (
         Parameter("gain", -0.05, 0.05, "1/K", null=0.0, meaning="relative change of the response"),
         Parameter("expansion", -1.0, 1.0, "{output}/K", null=0.0, meaning="change of the output's zero"),
@@ -40,7 +51,8 @@ class TemperatureSensitivity(Effect):
         if "temperature" not in signal.columns:
             raise ValueError("temperature-sensitivity needs a column temperature; these data have none")
         above = (signal.columns["temperature"] - self.reference)[:, None]
-        return inner(signal) * (1.0 + p.gain * above) + p.expansion * above
+        changed: Array = inner(signal) * (1.0 + p.gain * above) + p.expansion * above
+        return changed
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """A gain that stays above a tenth at every temperature; a zero that moves by up to the output's range."""

@@ -4,13 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
+
+import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import longest_lag, middling_lag
 from hysteresis_plugins.effects._ranges import FINEST, dominant_frequency, finest_step, unresolved
+
+
+def _shifted(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """By whole samples."""
+    y, late = inner(u), max(1, round(longest_lag(hiding) / hiding.step))
+    return np.concatenate([np.full(late, y[0]), y[:-late]])
+
+
+def _between(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return np.interp(hiding.time - middling_lag(hiding), hiding.time, inner(u))
 
 
 @dataclass(frozen=True)
@@ -30,6 +43,9 @@ class TransportDelay(Effect):
     [1] K. Ogata, Modern Control Engineering, 5th ed., Prentice Hall (2010), transport lag.
     """
 
+    acts = "output"
+    family = "linear dynamics after the law"
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_shifted, _between)
     parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

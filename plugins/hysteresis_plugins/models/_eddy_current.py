@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import (
@@ -20,6 +20,7 @@ from hysteresis_plugins.effects._ranges import (
     output_span,
     unresolved,
 )
+from hysteresis_plugins.models._eddy_current_hidden import opposed
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,23 @@ class EddyCurrent(Effect):
     [2] D. C. Jiles, IEEE Trans. Magnetics 30 (1994) 4326.
     """
 
+    acts = "law"
+    family = "law"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "creep": "both let a part of the response arrive late",
+        "input-lag": (
+            "where the slope of the loop changes little, eddy currents are an input lag of the coefficient times the "
+            "slope"
+        ),
+        "output-lag": (
+            "where the slope of the loop changes little, eddy currents are a lag, and a small lag before the "
+            "hysteresis and one after it differ only at second order"
+        ),
+        "transport-delay": (
+            "where the slope of the loop changes little, eddy currents are a lag, which at one frequency is a delay"
+        ),
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (opposed,)
     parameters = (
         Parameter(
             "coefficient", 1e-4, 10.0, "{input} {time}/{output}", "log", null=0.0, meaning="drag on the output's rate"

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Model
+from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
@@ -43,6 +43,7 @@ class BoucWen(Model):
         Parameter("d", 0.0, 5.0, unit="{output}/{input}", meaning="linear response"),
     )
     offers = OFFERS
+    example = Example(4.0, {"alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2}, stream=0)
 
     n: float = 1.0
 
@@ -124,4 +125,4 @@ def _offset(record: Record) -> float:
     # a loop that starts at rest may sit half its own height off the line, so that much is no offset
     slope = span_out / span_in
     height = float(np.ptp(measured - slope * driven))
-    return max(abs(centre_out - slope * centre_in) - height, 0.0) / span_out
+    return float(max(abs(centre_out - slope * centre_in) - height, 0.0) / span_out)

@@ -25,7 +25,7 @@ from typing import Any, Literal
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Model
+from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
@@ -59,6 +59,7 @@ class FreeEnergy(Model):
     )
     linear = ("M_R",)
     offers = OFFERS
+    example = Example(4.0, {"M_R": 1.0, "eta": 4.0, "H_c": 1.1, "b": 1.0, "c": 0.35, "alpha": 0.6}, stream=1)
 
     rule: Literal["trapezoid", "gauss-legendre", "gauss-hermite"] = "trapezoid"
     nodes: int = 64

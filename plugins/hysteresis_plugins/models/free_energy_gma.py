@@ -142,12 +142,12 @@ class FreeEnergyGma(Model):
             if not biased and np.min(record.input) < 0.0 < np.max(record.input):
                 sentences.append(
                     f"record {record.name}: without a bias field the displacement has twice the current's "
-                    f"frequency; where the actuator is biased, set bias_field"
+                    f"frequency; where the actuator is biased, set bias_field."
                 )
             rest = 1e6 * (self.mass * self.disturbance - self.prestress * self.area) / self.stiffness
             if record.output is not None and np.max(record.measured) < rest:
                 sentences.append(
                     f"record {record.name}: all displacements are below {rest:g} um, where the model's are all "
-                    f"above it; flip the output or add an offset"
+                    f"above it; flip the output or add an offset."
                 )
         return tuple(sentences)

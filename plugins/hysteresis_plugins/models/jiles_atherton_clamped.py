@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar
 
+from hysteresis_bench.contracts import Example
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
 
 
@@ -18,3 +19,4 @@ class JilesAthertonClamped(JilesAtherton):
     """
 
     clamped: ClassVar[bool] = True
+    example = Example(5000.0, {"alpha": 3e-4, "a": 1100.0, "k": 900.0, "M_s": 1.3e6, "c": 0.2}, stream=3)

@@ -153,4 +153,5 @@ def alive(z: Array, rng: Generator) -> Array:
 
 def picked(options: list[Array], chosen: Array) -> Array:
     """Column j of options[chosen[j]]: (dimension, particles)."""
-    return np.take_along_axis(np.stack(options), chosen[None, None, :], axis=0)[0]
+    rows: Array = np.take_along_axis(np.stack(options), chosen[None, None, :], axis=0)[0]
+    return rows

@@ -20,7 +20,8 @@ mechanics = njit(cache=True, error_model="numpy")(_sma_mechanics.mechanics)
 @njit(cache=True, error_model="numpy")
 def left(progress: float) -> float:
     """Share of a phase that is left at this progress through its transformation band; [1]'s cosine law."""
-    return 0.5 * (1.0 + np.cos(np.pi * min(max(progress, 0.0), 1.0)))
+    share: float = 0.5 * (1.0 + np.cos(np.pi * min(max(progress, 0.0), 1.0)))
+    return share
 
 
 @njit(cache=True, error_model="numpy")

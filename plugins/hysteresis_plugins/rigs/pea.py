@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Rig
+from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.signals import Dataset, Record
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ PLAYS = 60  # ours: more change the displacement by less than the sensor resolve
 
 
 @dataclass(frozen=True)
-class PeaRig(Rig):
+class PeaRig(SteppedRig):
     """A piezoelectric stack moves a flexure-guided stage; voltage and displacement count from mid-range.
 
     Built after the bench of [PEA] (section 4.1: a P11-X100S actuator with a strain gauge, an amplifier, a data
@@ -45,6 +46,7 @@ class PeaRig(Rig):
     [J] Jung and Gweon, Rev. Sci. Instrum. 71 (2000) 1896-1900: creep of piezoelectric actuators
     """
 
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({"time": "s", "input": "V", "output": "um"})
     experiments: ClassVar[dict[str, str]] = {
         "static-sine": "3 periods of 0.5 Hz, 2.5 V, 6000 samples",
         "sweep": "0.1 to 50 Hz within 10 s, 2.5 V, 20 000 samples",
@@ -93,8 +95,7 @@ class PeaRig(Rig):
         """
         time, voltage = self.drive(experiment)
         displacement = self.sensed(self.simulate(time, voltage), rng)
-        units = {"time": "s", "input": "V", "output": "um"}
-        return Dataset((Record(time, voltage, displacement, experiment, units),), hidden=self.hidden)
+        return Dataset((Record(time, voltage, displacement, experiment, dict(self.units)),), hidden=self.hidden)
 
     def drive(self, experiment: str) -> tuple[Array, Array]:
         """Time in s and voltage in V of an experiment. Raises ValueError for an unknown one."""
@@ -118,6 +119,15 @@ class PeaRig(Rig):
     def plant(self, rate: float) -> Plant:
         """The rig as a sampled plant for closed loops; rate : samples a second."""
         return Plant(self, self.physics, 1.0 / rate)
+
+    @property
+    def input_limit(self) -> float:
+        return self.voltage_limit
+
+    @property
+    def noise_floor(self) -> float:
+        """RMS of the noise and of rounding to the resolution, um."""
+        return float(np.hypot(self.noise, self.resolution / np.sqrt(12.0)))
 
     @property
     def hidden(self) -> dict[str, Any]:

@@ -12,14 +12,20 @@ from scipy.signal import lsim
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data_files import read_data
-from hysteresis_bench.diagnosis.evidence.memory import Memory, memory
+from hysteresis_bench.data.data_files import read_data
+from hysteresis_bench.diagnosis.evidence import memory as evidence
+from hysteresis_bench.diagnosis.evidence.memory import Memory
+from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.signals import INDEX, Record
 
 TIME = np.arange(2000) / 500.0
 SINE = 5.0 * np.sin(2 * np.pi * 2 * TIME)
 SWEEP = 5.0 * np.sin(2 * np.pi * (0.5 + 1.5 * TIME) * TIME)
 NESTED = SINE * np.exp(-TIME / 2)
+
+
+def memory(records: list[Record]) -> Memory:
+    return evidence.memory(views_of(records))
 
 
 def system(numerator: list[float], denominator: list[float]) -> Callable[[Array], Array]:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data_files import read_data
+from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.diagnosis.evidence.noise import (
     MISSED,
     clipped_rms,
@@ -131,7 +131,7 @@ def test_pooled_noise_weighs_by_samples() -> None:
     u = INPUTS["sweep"]
     quiet = Record(TIME, u, loop(u) + 0.01 * rng.standard_normal(u.size))
     loud = Record(TIME[:2000], u[:2000], (loop(u) + 0.03 * rng.standard_normal(u.size))[:2000])
-    both = pooled_noise([quiet, loud])
+    both = pooled_noise([noise(quiet), noise(loud)])
     assert both.rms == pytest.approx(np.sqrt((2 * 0.01**2 + 0.03**2) / 3), rel=0.05)
     assert both.samples == 6000
     assert both.repeat_rms is None

@@ -1,65 +1,23 @@
-"""The floor under every judgement, and noise without a hum that was found."""
+"""The floor under every judgement."""
 
 import numpy as np
 import pytest
 
-from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.evidence.noise import noise, pooled_noise
-from hysteresis_bench.diagnosis.evidence.noise_floor import FINEST, floor_of, without_hum
-from hysteresis_bench.diagnosis.search.hypotheses import Bench, Trial
-from hysteresis_bench.diagnosis.search.systems import Stack
+from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
+from hysteresis_bench.diagnosis.evidence.noise_floor import FINEST, floor_of
+from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.signals import Record
 
-HUM = {"cosine": 0.3, "sine": -0.2, "frequency": 47.0}
-TRUE = {"alpha": 0.3, "beta": 0.6, "gamma": 0.2, "d": 1.0}
-TIMES = [np.linspace(0.0, 2.0, 400), np.sort(np.random.default_rng(3).uniform(5.0, 7.0, 300))]
 
-
-def records_with(hum, level=0.0):
-    """level : of white noise"""
-    rng = np.random.default_rng(4)
-    phases = [2 * np.pi * hum["frequency"] * time for time in TIMES]
-    return tuple(
-        Record(
-            time,
-            4.0 * np.sin(2 * np.pi * time),
-            4.1 * np.sin(2 * np.pi * time)
-            + hum["cosine"] * np.cos(phase)
-            + hum["sine"] * np.sin(phase)
-            + level * rng.standard_normal(time.size),
-            f"record {number}",
-        )
-        for number, (time, phase) in enumerate(zip(TIMES, phases, strict=True))
-    )
-
-
-def trial(*names):
-    values = {**TRUE, **{f"periodic-disturbance.{key}": value for key, value in HUM.items()}}
-    return Trial(frozenset(names), values, np.zeros(700), np.zeros(700), ())
-
-
-def bench(records):
-    return Bench(Stack(registry.build("models", "bouc-wen"), records))
-
-
-def test_the_hum_and_nothing_else_is_taken_off():
-    loud, quiet = (records_with(hum, 0.01) for hum in (HUM, {**HUM, "cosine": 0.0, "sine": 0.0}))
-    for found, expected in zip(
-        without_hum(bench(loud), trial("periodic-disturbance", "record-offset")), quiet, strict=True
-    ):
-        assert np.allclose(found.output, expected.output, rtol=0, atol=1e-12)
-        assert noise(found).rms == pytest.approx(noise(expected).rms, rel=1e-6)
-
-
-def test_without_a_hum_the_records_stay():
-    records = records_with(HUM)
-    assert without_hum(bench(records), trial("drift")) is records
+def floor(records):
+    views = views_of(records)
+    return floor_of(views, pooled_noise([view.noise for view in views]))
 
 
 def test_the_floor_is_noise_or_what_is_below_any_judgement():
     time = np.linspace(0.0, 10.0, 997)
     zigzag = np.abs((time * np.pi / 3) % 1.0 - 0.5)
     silent = (Record(time, zigzag, 2.0 * zigzag),)
-    assert floor_of(silent, pooled_noise(silent)) == pytest.approx(FINEST * np.ptp(silent[0].output))
+    assert floor(silent) == pytest.approx(FINEST * np.ptp(silent[0].output))
     loud = (Record(time, zigzag, 2.0 * zigzag + 0.02 * np.random.default_rng(5).standard_normal(time.size)),)
-    assert floor_of(loud, pooled_noise(loud)) == pytest.approx(0.02, rel=0.1)
+    assert floor(loud) == pytest.approx(0.02, rel=0.1)

@@ -13,6 +13,7 @@ from hysteresis_bench.diagnosis.evidence import covariates
 from hysteresis_bench.diagnosis.evidence.autocorrelated import autoregression, effective_samples, f_test
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, residual_tests
+from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.signals import INDEX, Record
 
 UNIT = Noise(1.0, 0.02, 0.0, 0.0, None, (1.0, 1.0, 1.0), 0.0, 1000)
@@ -21,6 +22,10 @@ SINE = np.sin(2 * np.pi * 5 * TIME)
 TEMPERATURE = 20.0 + 5.0 * np.sin(11.0 * TIME)
 RECORD = Record(TIME, SINE, SINE, columns={"temperature": TEMPERATURE})
 TRUE_OF_COLOURED_NOISE = ("whiteness", "noise-floor")
+
+
+def told_of(records: list[Record], residuals: list[Array], noises: list[Noise]) -> list[ResidualTest]:
+    return residual_tests([View(*pair) for pair in zip(records, noises, strict=True)], residuals)
 
 
 def coloured(rho: float, rng: np.random.Generator, samples: int = TIME.size) -> Array:
@@ -34,14 +39,14 @@ def found(tests: list[ResidualTest]) -> set[str]:
 @pytest.mark.parametrize("rho", [0.0, 0.5, 0.8, 0.95])
 def test_false_positives_on_autocorrelated_noise(rho: float) -> None:
     rng = np.random.default_rng(11)
-    low, families, trials = Counter[str](), 0, 100
-    for _ in range(trials):
-        tests = residual_tests([RECORD], [coloured(rho, rng)], [UNIT])
+    low, families, hypotheses = Counter[str](), 0, 100
+    for _ in range(hypotheses):
+        tests = told_of([RECORD], [coloured(rho, rng)], [UNIT])
         low.update(test.name for test in tests if test.p < 0.05 and test.name not in TRUE_OF_COLOURED_NOISE)
         families += bool(found(tests) - set(TRUE_OF_COLOURED_NOISE))
-    assert sum(low.values()) / (trials * 13) < 0.065  # 13 such tests; standard error 0.006
-    assert max(low.values()) / trials < 0.13
-    assert families / trials < 0.11
+    assert sum(low.values()) / (hypotheses * 13) < 0.065  # 13 such tests; standard error 0.006
+    assert max(low.values()) / hypotheses < 0.13
+    assert families / hypotheses < 0.11
 
 
 @pytest.mark.parametrize("rho", [0.0, 0.7])
@@ -61,17 +66,17 @@ def test_false_positives_on_autocorrelated_noise(rho: float) -> None:
 )
 def test_finds_what_was_planted(cause: str, planted: Array, rho: float) -> None:
     rng = np.random.default_rng(12)
-    hits = sum(cause in found(residual_tests([RECORD], [coloured(rho, rng) + planted], [UNIT])) for _ in range(10))
+    hits = sum(cause in found(told_of([RECORD], [coloured(rho, rng) + planted], [UNIT])) for _ in range(10))
     assert hits >= 9
 
 
 def test_a_line_is_placed_and_compared_with_the_drive() -> None:
     rng = np.random.default_rng(13)
     noise = rng.standard_normal(TIME.size)
-    by_name = {t.name: t for t in residual_tests([RECORD], [noise + np.sin(2 * np.pi * 52.5 * TIME)], [UNIT])}
+    by_name = {t.name: t for t in told_of([RECORD], [noise + np.sin(2 * np.pi * 52.5 * TIME)], [UNIT])}
     assert "no multiple of the input's frequency" in by_name["spectral-line"].words
     assert " 52 Hz" in by_name["spectral-line"].words or " 53 Hz" in by_name["spectral-line"].words
-    by_name = {t.name: t for t in residual_tests([RECORD], [noise + np.sin(2 * np.pi * 15 * TIME)], [UNIT])}
+    by_name = {t.name: t for t in told_of([RECORD], [noise + np.sin(2 * np.pi * 15 * TIME)], [UNIT])}
     assert "15 Hz, 3 times the input's frequency" in by_name["spectral-line"].words
     assert by_name["spectral-line"].share == pytest.approx(0.5 / 1.5, abs=0.05)
 
@@ -79,16 +84,16 @@ def test_a_line_is_placed_and_compared_with_the_drive() -> None:
 def test_scatter_that_follows_the_input() -> None:
     rng = np.random.default_rng(14)
     noise = rng.standard_normal(TIME.size)
-    assert "scatter-input" in found(residual_tests([RECORD], [noise * (0.3 + np.abs(SINE))], [UNIT]))
-    assert "scatter-time" in found(residual_tests([RECORD], [noise * (0.5 + TIME)], [UNIT]))
+    assert "scatter-input" in found(told_of([RECORD], [noise * (0.3 + np.abs(SINE))], [UNIT]))
+    assert "scatter-time" in found(told_of([RECORD], [noise * (0.5 + TIME)], [UNIT]))
 
 
 def test_noise_floor_knows_how_sure_it_is() -> None:
     rng = np.random.default_rng(15)
     residual = 1.15 * rng.standard_normal(TIME.size)
-    assert "noise-floor" in found(residual_tests([RECORD], [residual], [UNIT]))
+    assert "noise-floor" in found(told_of([RECORD], [residual], [UNIT]))
     unsure = Noise(1.0, 0.2, 0.0, 0.0, None, (1.0, 1.0, 1.0), 0.0, 1000)
-    assert "noise-floor" not in found(residual_tests([RECORD], [residual], [unsure]))
+    assert "noise-floor" not in found(told_of([RECORD], [residual], [unsure]))
 
 
 def test_past_extrema_on_nested_loops() -> None:
@@ -96,16 +101,14 @@ def test_past_extrema_on_nested_loops() -> None:
     u = SINE * np.exp(-TIME)
     turns = covariates.turning_points(u, 0.01)
     planted = covariates.last_extremum(u, turns) * 1.5
-    assert "past-extrema" in found(
-        residual_tests([Record(TIME, u, u)], [rng.standard_normal(u.size) + planted], [UNIT])
-    )
+    assert "past-extrema" in found(told_of([Record(TIME, u, u)], [rng.standard_normal(u.size) + planted], [UNIT]))
 
 
 def test_several_records_are_told_one_by_one_and_together() -> None:
     rng = np.random.default_rng(17)
     records = [Record(TIME, SINE, SINE, name=name) for name in "ab"]
     residuals = [rng.standard_normal(TIME.size) + 0.5, rng.standard_normal(TIME.size) - 0.5]
-    tests = residual_tests(records, residuals, [UNIT, UNIT])
+    tests = told_of(records, residuals, [UNIT, UNIT])
     assert {test.record for test in tests} == {"a", "b", "all"}
     assert {t.record for t in tests if t.name == "offset" and t.significant} == {"a", "b", "all"}
     assert all(test.corrected_p >= test.p for test in tests)
@@ -114,7 +117,7 @@ def test_several_records_are_told_one_by_one_and_together() -> None:
 def test_without_a_time_base_nothing_is_said_of_time() -> None:
     rng = np.random.default_rng(18)
     record = Record(np.arange(1000.0), SINE, SINE, units={"time": INDEX, "input": "1", "output": "1"})
-    names = {test.name for test in residual_tests([record], [rng.standard_normal(1000)], [UNIT])}
+    names = {test.name for test in told_of([record], [rng.standard_normal(1000)], [UNIT])}
     assert names.isdisjoint(
         {"rate", "time", "scatter-rate", "scatter-time", "spectral-line", "coherence", "temperature"}
     )
@@ -123,7 +126,7 @@ def test_without_a_time_base_nothing_is_said_of_time() -> None:
 
 @pytest.mark.parametrize("residual", [np.zeros(1000), np.ones(1000), 1e-300 * SINE, 1e70 * SINE])
 def test_degenerate_residuals_give_numbers(residual: Array) -> None:
-    for test in residual_tests([RECORD], [residual], [UNIT]):
+    for test in told_of([RECORD], [residual], [UNIT]):
         assert 0.0 <= test.p <= 1.0
         assert 0.0 <= test.share <= 1.0
 
@@ -131,7 +134,7 @@ def test_degenerate_residuals_give_numbers(residual: Array) -> None:
 def test_history_is_not_scored() -> None:
     rng = np.random.default_rng(19)
     record = Record(TIME, SINE, SINE, history=300)
-    assert not found(residual_tests([record], [rng.standard_normal(700)], [UNIT]))
+    assert not found(told_of([record], [rng.standard_normal(700)], [UNIT]))
 
 
 def test_effective_samples_of_an_autoregression() -> None:

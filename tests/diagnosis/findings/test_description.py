@@ -8,11 +8,12 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.commands.diagnose import diagnose as command
-from hysteresis_bench.data_files import write_csv
+from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.description import Description, accepted
 from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.diagnosis.findings.terms import Equation, FittedTerm, Term
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.signals import Dataset, Record
 from tests.diagnosis.generator import make
@@ -76,11 +77,11 @@ def odd():
 
 @pytest.fixture(scope="module")
 def described(odd):
-    return diagnose(odd, "bouc-wen", accept_terms=True, jobs=1)
+    return diagnose(odd, Question("bouc-wen", options=DiagnosisOptions(jobs=1, accept_terms=True)))
 
 
 def test_accepted_terms_bring_the_error_down(odd, described):
-    plain = diagnose(odd, "bouc-wen", jobs=1)
+    plain = diagnose(odd, Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
     assert "description" not in plain.effects
     assert any(part.term.kind == "branch" for part in plain.equation.terms)
     assert described.effects == (*plain.effects, "description")
@@ -104,8 +105,8 @@ def test_the_written_model_predicts_what_was_found(odd, described, tmp_path):
 def test_the_command_passes_it_on(odd, described, tmp_path, monkeypatch):
     asked = {}
 
-    def found(dataset, model, **options):
-        asked.update(options)
+    def found(dataset, question):
+        asked["question"] = question
         return described
 
     monkeypatch.setattr("hysteresis_bench.diagnosis.diagnose.diagnose", found)
@@ -113,7 +114,7 @@ def test_the_command_passes_it_on(odd, described, tmp_path, monkeypatch):
     told = [str(tmp_path / "one.csv"), "--model", "bouc-wen", "--out", str(tmp_path / "out"), "--accept-terms"]
     ran = CliRunner().invoke(command, told)
     assert ran.exit_code == 0, ran.output
-    assert asked["accept_terms"] is True
+    assert asked["question"].options.accept_terms is True
     effects = json.loads((tmp_path / "out" / "diagnosis.json").read_text())["effects"]
     assert "description" in effects
     assert "description" in (tmp_path / "out" / "diagnosis.html").read_text()

@@ -1,30 +1,30 @@
-"""Which system is taken: hand-made trials on a bench that looks fits up instead of running them."""
+"""Which system is taken: hand-made hypotheses on a fitter that looks fits up instead of running them."""
 
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.search.cross_validation import Blocks
-from hysteresis_bench.diagnosis.search.hypotheses import Trial
-from hysteresis_bench.diagnosis.search.nested_test import NestedTest
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import Blocks
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.search.selection import Selection
 
 FLOOR = 0.1
 WAVE = np.sqrt(2.0) * np.sin(2 * np.pi * np.arange(480) / 10)
 ASIDE = np.sqrt(2.0) * np.cos(2 * np.pi * np.arange(480) / 10)
-BLOCKS = Blocks(np.arange(480) // 10, np.arange(480) // 10 % 4)
+BLOCKS = Blocks(np.arange(480) // 10, np.arange(480) // 10 % 4, 4)
 
 
 def fit(names, rmse, wave=WAVE):
     """Residuals of one shape, of which every block gains alike: any difference is significant."""
     values = dict.fromkeys(names, 1.0)
-    return Trial(frozenset(names), values, rmse * wave, rmse * wave, ())
+    return Hypothesis(frozenset(names), values, rmse * wave, rmse * wave, ())
 
 
 def selection_of(*fits, floor=FLOOR, candidates="abcd"):
-    """Every question is answered by the fit of the system that it asks for; the crew keeps what it was asked."""
-    book, asked = {trial.names: trial for trial in fits}, []
+    """Every question is answered by the fit of the system that it asks for; the workers keeps what it was asked."""
+    book, asked = {hypothesis.names: hypothesis for hypothesis in fits}, []
 
     def answers(questions):
         asked.extend(questions)
@@ -35,13 +35,13 @@ def selection_of(*fits, floor=FLOOR, candidates="abcd"):
         }
         return [book[frozenset(changed[method](*rest))] for method, *rest in questions]
 
-    bench = SimpleNamespace(
+    fitter = SimpleNamespace(
         blocks=BLOCKS,
         stack=SimpleNamespace(model=SimpleNamespace(offers={})),
         test=lambda smaller, larger: NestedTest(1e3, 1e-12, 1),
-        refitted=lambda trial: trial,
+        refitted=lambda hypothesis: hypothesis,
     )
-    return Selection(bench, SimpleNamespace(map=answers, asked=asked), floor, tuple(candidates))
+    return Selection(fitter, SimpleNamespace(map=answers, asked=asked), floor, tuple(candidates))
 
 
 def leaving(excess, floor=FLOOR):
@@ -91,16 +91,16 @@ def test_a_better_fit_found_later_replaces_the_known_one():
     current, worse, better = fit("ab", 0.8), fit("ac", 1.9), fit("ad", 0.5)
     unrelated = fit("cd", 1.9)
     selection = selection_of(good)
-    selection.known = {trial.names: trial for trial in (bad, current, worse, better, unrelated)}
+    selection.known = {hypothesis.names: hypothesis for hypothesis in (bad, current, worse, better, unrelated)}
     assert selection.without(current, "b") is good
-    kept = {trial.names: trial for trial in (good, current, better, unrelated)}
+    kept = {hypothesis.names: hypothesis for hypothesis in (good, current, better, unrelated)}
     assert selection.known == kept  # {a, c} was built on the worse {a}
 
 
 def test_a_worse_fit_found_later_is_forgotten():
     known, larger = fit("a", 1.0), fit("ac", 1.05)
     selection = selection_of(fit("a", 1.2))
-    selection.known = {trial.names: trial for trial in (known, larger)}
+    selection.known = {hypothesis.names: hypothesis for hypothesis in (known, larger)}
     assert selection.without(fit("ab", 0.8), "b") is known
     assert selection.known == {known.names: known, larger.names: larger}
 
@@ -109,7 +109,7 @@ def test_the_same_question_is_asked_once():
     current = fit("ab", 0.8)
     selection = selection_of(fit("a", 1.0), fit("b", 1.1))
     assert selection._reduced(current, "ab") == selection._reduced(current, "ab")
-    assert [question[2] for question in selection.crew.asked] == ["a", "b"]
+    assert [question[2] for question in selection.workers.asked] == ["a", "b"]
     del selection.known[frozenset("a")]
     assert selection.without(current, "b").names == {"a"}
-    assert len(selection.crew.asked) == 3
+    assert len(selection.workers.asked) == 3

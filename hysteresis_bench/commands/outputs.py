@@ -1,0 +1,58 @@
+"""What a command may write over: nothing that was there before, but its own earlier results."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from hysteresis_bench.errors import UserError
+
+REPORT, CONTINUED = "report.html", ("trials.sqlite", "cases")
+"""A study's page, and what a study or a study of diagnosis goes on from."""
+
+force_option = click.option("--force", is_flag=True, help="Write over what is there, also over the inputs.")
+
+
+def check_file(out: Path, inputs: Sequence[Path] = (), force: bool = False) -> None:
+    """Raises UserError where a file cannot be written, or would replace one without `force`."""
+    if not out.parent.is_dir():
+        raise UserError(str(out), f"there is no folder {out.parent} to write it to.")
+    if out.exists() and (out.is_fifo() or out.is_dir()):
+        raise UserError(str(out), "is no file that can be written.")
+    if any(_same(out, file) for file in inputs) and not force:
+        raise UserError(str(out), "is one of the inputs; choose another name, or --force to replace it.")
+    if out.is_file() and not force:
+        raise UserError(str(out), "is there already; choose another name, or --force to replace it.")
+
+
+def check_folder(
+    folder: Path, files: Sequence[str], page: str, inputs: Sequence[Path] = (), force: bool = False
+) -> None:
+    """Raises UserError where files of a folder would replace an input, or what another command left there.
+
+    files : that will be written;  page : one of them, which says that the folder is the command's own
+    """
+    if force:
+        return
+    faults = [f"{file} is one of the inputs." for file in inputs for name in files if _same(folder / name, file)]
+    if not (folder / page).is_file():
+        faults += [f"{folder / name} is not this command's own." for name in files if (folder / name).exists()]
+    if faults:
+        raise UserError(str(folder), [*faults, "Choose another folder with --out, or --force to replace them."])
+
+
+def check_results(folder: Path, force: bool = False) -> None:
+    """Raises UserError for a report that is kept without what it was made from: running would begin it anew."""
+    continued = any((folder / name).exists() for name in CONTINUED)
+    if (folder / REPORT).is_file() and not continued and not force:
+        raise UserError(
+            str(folder),
+            "holds a report that is kept, without its trials, and would be replaced. "
+            "Choose another folder with --out, or --force to replace it.",
+        )
+
+
+def _same(one: Path, other: Path) -> bool:
+    return one.exists() and other.exists() and one.samefile(other)

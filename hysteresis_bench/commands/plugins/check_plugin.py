@@ -1,0 +1,60 @@
+"""The command `check-plugin`: the contract tests on one registered plugin, and why each failed one did."""
+
+from __future__ import annotations
+
+import sys
+
+import click
+from rich.console import Console
+from rich.markup import escape
+
+from hysteresis_bench import registry
+from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.errors import UserError, nearest
+
+SINGULAR: dict[str, registry.Kind] = {
+    "optimizer": "optimizers",
+    "model": "models",
+    "effect": "effects",
+    "rig": "rigs",
+}
+FAILED = 1
+
+
+@click.command("check-plugin")
+@click.argument("name")
+@click.option("--kind", type=click.Choice(list(SINGULAR)), help="Where a name is of several kinds.")
+@click.option("--timeout", type=float, default=120.0, show_default=True, help="Seconds that a test may take.")
+def check_plugin(name: str, kind: str | None, timeout: float) -> None:
+    """Test whether the plugin NAME keeps its contract; exit code 1 where it does not."""
+    asked = {word: SINGULAR[word] for word in ([kind] if kind else SINGULAR)}
+    found = {word: one for word, one in asked.items() if name in registry.names(one)}
+    if not found:
+        known = [other for one in asked.values() for other in registry.names(one)]
+        raise UserError("check-plugin", f'no {kind or "plugin"} "{name}". {nearest(name, known)}')
+    console = plain_console()
+    kept = [_check(console, word, one, name, timeout) for word, one in found.items()]
+    if not all(kept):
+        sys.exit(FAILED)
+
+
+def _check(console: Console, word: str, kind: registry.Kind, name: str, timeout: float) -> bool:
+    """Print one line a promise; are all kept?"""
+    from hysteresis_bench.testing.check import BROKEN, check
+
+    plugin = registry.load(kind, name)
+    console.print(f"[bold]{word} {escape(name)}[/] of {escape(plugin.distribution)} {escape(plugin.version)}")
+    broken = count = 0
+    for verdict in check(kind, name, timeout):
+        count += 1
+        if verdict.status == BROKEN:
+            broken += 1
+            console.print(f"  [red]broken[/]  {escape(verdict.promise)}", highlight=False)
+            console.print(f"          [red]{escape(verdict.reason)}[/]", highlight=False, soft_wrap=True)
+        elif verdict.reason:
+            console.print(f"  {verdict.promise}: {escape(verdict.reason)}", highlight=False, soft_wrap=True)
+        else:
+            console.print(f"  kept    {escape(verdict.promise)}", highlight=False)
+    told = f"{broken} of {count} promises are broken." if broken else "Every promise is kept."
+    console.print(told, highlight=False)
+    return not broken

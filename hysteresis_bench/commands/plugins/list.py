@@ -1,0 +1,76 @@
+"""The command `list`: what is registered, what is broken and why, and the studies of this folder."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from hysteresis_bench import registry
+from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.commands.plugins.describe import describe, kinds_of
+from hysteresis_bench.errors import UserError, nearest
+
+KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
+
+
+@click.command("list")
+@click.argument("what", required=False)
+def list_plugins(what: str | None) -> None:
+    """List models, effects, optimizers, rigs or studies; all of them without an argument. With the name of a plugin
+    tell what it is: parameters, settings, and where it comes from."""
+    known = (*KINDS, "studies")
+    console = plain_console()
+    if what is not None and what not in known:
+        if not kinds_of(what):
+            everything = {*known, *registry.offered(), *(name for kind in KINDS for name in registry.names(kind))}
+            raise UserError("list", f'there are no "{what}". {_nearest(what, known, everything)}')
+        describe(what, console)
+        return
+    for kind in KINDS:
+        if what in (None, kind):
+            _list_kind(kind, console)
+    if what in (None, "studies"):
+        _list_studies(console)
+
+
+def _nearest(what: str, kinds: tuple[str, ...], everything: set[str]) -> str:
+    """The kinds that can be listed, and what was meant among all names."""
+    told, _, meant = nearest(what, everything).partition(". ")
+    return f"Known: {', '.join(kinds)}, or the name of a plugin. {meant}" if told else ""
+
+
+def _list_kind(kind: registry.Kind, console: Console) -> None:
+    table = Table(title=kind, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
+    for plugin in registry.registered(kind):
+        summary = plugin.summary
+        if kind == "rigs" and plugin.loaded is not None:
+            summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
+        origin = f"{plugin.distribution} {plugin.version}"
+        table.add_row(f"  {plugin.name}", escape(summary), escape(origin), style="red" if plugin.fault else "")
+    if kind == "effects":
+        for name, models in registry.offered().items():
+            effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]
+            table.add_row(f"  {name}", escape(f"{registry.sentence(type(effect))} For {', '.join(models)}."))
+    console.print(table)
+
+
+def _list_studies(console: Console) -> None:
+    table = Table(
+        title="studies", title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False
+    )
+    for path in sorted(Path("studies").glob("*.toml")):
+        if path.name.endswith(".published.toml"):
+            continue
+        try:
+            title = str(tomllib.loads(path.read_text(encoding="utf-8")).get("title", ""))
+        except (OSError, tomllib.TOMLDecodeError) as error:
+            title = f"broken: {error}"
+        table.add_row(f"  {path}", escape(title))
+    if not table.row_count:
+        table.add_row("  none", "there is no folder studies/ here")
+    console.print(table)

@@ -1,0 +1,34 @@
+"""The command `predict`: the output of data with a fitted model, and how far it is from what was measured."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import click
+
+from hysteresis_bench.commands.console import plain_console, say_notes, say_path
+from hysteresis_bench.commands.outputs import check_file, force_option
+
+
+@click.command()
+@click.argument("model", type=click.Path(path_type=Path))
+@click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
+@force_option
+def predict(model: Path, data: Sequence[Path], out: Path, force: bool) -> None:
+    """Predict the output of DATA.csv ... with a fitted MODEL.json, prepared as for its fit."""
+    check_file(out, (model, *data), force)
+    from hysteresis_bench.data.data_files import read_data, write_csv
+    from hysteresis_bench.fit.model_file import read_model
+
+    fitted, console = read_model(model), plain_console()
+    measured = read_data(data, output_needed=False, units=fitted.units)
+    predicted = fitted.predict(measured)
+    write_csv(out, predicted)
+    say_notes(console, predicted.notes)
+    unit = "" if fitted.units["output"] == "1" else f" {fitted.units['output']}"
+    for record, error in fitted.errors(measured).items():
+        told = f"relative RMS {error.relative_rms:.2%}, largest error {error.max_error:.2%}"
+        console.print(f"{record}: RMSE {error.rmse:.4g}{unit}, {told}", highlight=False, markup=False)
+    say_path(console, "prediction", out)

@@ -1,0 +1,1 @@
+"""The controllers that close the loop, and how they are tuned."""

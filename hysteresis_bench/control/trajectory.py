@@ -1,0 +1,64 @@
+"""The input that makes a fitted model follow a user's own trajectory, read from a CSV."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.control.feed_forward import FeedForward
+from hysteresis_bench.data.data_files import read_columns, time_faults
+from hysteresis_bench.data.units import in_units
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.signals import Dataset, Record
+
+REFERENCE = "reference"
+"""What the column of the wanted output may be called, beside `output`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Followed:
+    """time, input, output : (samples,) in the model's units;  cut : where the limit changed the input
+    notes : what was done to the trajectory, a sentence each"""
+
+    time: Array
+    input: Array
+    output: Array
+    cut: Array
+    notes: tuple[str, ...]
+
+
+def read_trajectory(path: Path, units: Mapping[str, str]) -> Dataset:
+    """Time and wanted output of a CSV with the columns `time` and `output` (or `reference`), in a model's units.
+
+    The wanted output stands in a record's `input` as in its `output`, for what asks whether a loop is closed.
+    Raises UserError naming file, row and column.
+    """
+    name = REFERENCE if REFERENCE in read_columns(path, ["time"]).numbers else "output"
+    columns = read_columns(path, ["time", name])
+    time, wanted = columns.numbers["time"], columns.numbers[name]
+    if faults := time_faults(time, columns.lines) if time.size > 1 else ["needs at least 2 samples."]:
+        raise UserError(str(path), faults)
+    stated = {"time": columns.units.get("time"), "output": columns.units.get(name)}
+    record = Record(time, wanted, wanted, path.stem, {key: unit for key, unit in stated.items() if unit is not None})
+    known = in_units(Dataset((record,)), {key: units[key] for key in stated}, str(path), "the model's")
+    return known.map(lambda one: Record(one.time, one.output, one.output, one.name, units))
+
+
+def follow(fitted: FittedModel, forward: FeedForward, path: Path, limit: float) -> Followed:
+    """The input for the trajectory of a CSV, prepared as the fit's records were; limit : of the input, to either side.
+
+    Raises UserError naming file, row and column.
+    """
+    trajectory = read_trajectory(path, fitted.units)
+    (record,) = trajectory.records
+    passes = fitted.preparation.settle if is_closed(record) else 0
+    wanted = record.measured
+    needed, cut = (each[-wanted.size :] for each in forward.input_for(np.tile(wanted, passes + 1), limit))
+    notes = (*trajectory.notes, *fitted.preparation.words([record], fitted.units["time"]))
+    return Followed(record.time, needed, wanted, cut, notes)

@@ -1,0 +1,1 @@
+"""Measured data as files: CSV cells, records with units, quantities."""

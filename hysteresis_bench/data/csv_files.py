@@ -1,0 +1,74 @@
+"""CSV as a file of cells: read as text, written so that no text in it is a formula to a spreadsheet.
+
+A text that begins with = + - or @ and is no number gets an apostrophe before it, and loses it where it is read.
+"""
+
+from __future__ import annotations
+
+import re
+import stat
+from collections.abc import Callable
+from pathlib import Path
+
+import pandas as pd
+
+from hysteresis_bench.errors import UserError
+
+FORMULA = re.compile(r"'*[=+\-@\t\r]")
+GUARDED = re.compile(r"''*[=+\-@\t\r]")
+
+
+def guarded(text: str) -> str:
+    """A text as it may stand in a cell; `unguarded` gives it back."""
+    return f"'{text}" if FORMULA.match(text) and not is_number(text) else text
+
+
+def unguarded(cell: str) -> str:
+    """The text that a cell was written from."""
+    return cell[1:] if GUARDED.match(cell) else cell
+
+
+def is_number(text: str) -> bool:
+    """Whether a text reads as a number."""
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def read_cells(path: Path) -> pd.DataFrame:
+    """Every cell as it stands in the file, as text, the header too; rows counted as a text editor counts lines.
+
+    Raises UserError for what is no file or no CSV.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise UserError(str(path), "is no file that can be read twice, but a folder, a pipe or a device.")
+        cells = pd.read_csv(path, header=None, dtype=str, keep_default_na=False, skip_blank_lines=False).fillna("")
+    except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
+        reason = getattr(error, "strerror", None) or (str(error).strip().splitlines() or ["it is not text"])[0]
+        raise UserError(str(path), f"cannot be read as CSV: {reason}.") from None
+    cells.index += 1
+    return cells
+
+
+def read_table(path: Path) -> pd.DataFrame:
+    """A table that `write_table` wrote."""
+    return _with_texts(pd.read_csv(path), unguarded)
+
+
+def write_table(path: Path, table: pd.DataFrame, *, digits: int | None = None, index: bool = False) -> None:
+    """Write a table, its texts guarded; digits : significant ones of a number, all that it has by default."""
+    safe = _with_texts(table.reset_index() if index else table, guarded)
+    safe.to_csv(path, index=False, float_format=None if digits is None else f"%.{digits}g")
+
+
+def _with_texts(table: pd.DataFrame, change: Callable[[str], str]) -> pd.DataFrame:
+    """The table with every text changed, in its cells and in its header."""
+
+    def changed(value: object) -> object:
+        return change(value) if isinstance(value, str) else value
+
+    texts = [name for name in table if not pd.api.types.is_numeric_dtype(table[name])]
+    return table.assign(**{name: table[name].map(changed) for name in texts}).rename(columns=changed)

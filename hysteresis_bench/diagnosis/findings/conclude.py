@@ -1,0 +1,127 @@
+"""From what the search found to what is told: verdict, sentences, ties, advice, the model ready to predict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.findings.advice import Advice, advise
+from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
+from hysteresis_bench.diagnosis.findings.description import accepted
+from hysteresis_bench.diagnosis.findings.remainder import remainder
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.findings.stages import Stage, Stages, stage_of
+from hysteresis_bench.diagnosis.findings.terms import Equation
+from hysteresis_bench.diagnosis.findings.ties import Tie, tie
+from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
+from hysteresis_bench.diagnosis.preparation import Prepared
+from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.fit.accuracy import response_table, simulated
+from hysteresis_bench.fit.identifiability.analysis import analyse
+from hysteresis_bench.fit.model_file import FittedModel, fitted_model
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.settling import gap_after, not_closed
+from hysteresis_bench.signals import Dataset
+
+
+def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Found, stages: Stages) -> Diagnosis:
+    """dataset : as measured"""
+    ties = tuple(
+        tie(name, rival, found.best.apart(other))
+        for name, rivals in found.rivals.items()
+        for rival, other in rivals.items()
+    )
+    candidates, after, evidence = candidates_of(found, ties), stages.after, found.evidence
+    adopted, waterfall = stages.adopted, stages.waterfall
+    equation, remains = remainder(after, evidence)
+    if question.options.accept_terms and equation and equation.terms:
+        candidates = (description_row(equation, after), *candidates)
+        after = _described(found, equation, prepared)
+        adopted = (*adopted, registry.DESCRIPTION)
+        waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
+        equation, remains = remainder(after, evidence)
+    outcome = Outcome(stages.before, after, adopted, found, ties, remains, dataset.units)
+    return Diagnosis(
+        model_name=question.model,
+        verdict="unexplained-residual" if outcome.unexplained else "effect-found" if adopted else "no-effect-needed",
+        headline=headline(outcome),
+        effects=adopted,
+        offset=stages.offset,
+        before=stages.before,
+        after=after,
+        noise=evidence.noise,
+        floor=evidence.floor,
+        candidates=candidates,
+        steps=tuple(step_of(at) for at in found.selection.rounds),
+        waterfall=(*waterfall, ("noise", evidence.noise.floor)),
+        ties=ties,
+        advice=_advice(found, ties),
+        memory=evidence.memory,
+        equation=equation,
+        model=_model(after, prepared, question),
+        responses=_responses(prepared.dataset, stages.before, after),
+        split={
+            "fitted": [record.name for record in prepared.dataset.fitted],
+            "held_out": [record.name for record in prepared.dataset.held_out],
+            "how": prepared.how,
+        },
+        warnings=(*dataset.notes, *warnings(outcome), *_open(after, prepared)),
+        units=dataset.units,
+        given_up=found.given_up,
+    )
+
+
+def _described(found: Found, equation: Equation, prepared: Prepared) -> Stage:
+    """The final system with an equation's terms added to its output."""
+    stack = replace(found.full.stack, ready={registry.DESCRIPTION: accepted(equation)})
+    final = replace(found.final, names=found.final.names | {registry.DESCRIPTION})
+    return stage_of(replace(found.full, stack=stack), final, prepared)
+
+
+def _advice(found: Found, ties: Sequence[Tie]) -> Advice | None:
+    if not ties:
+        return None
+    first = ties[0].effect
+    rivals = found.rivals[first]
+    tied = [found.thin.fitted(rival) for rival in rivals.values()]
+    records = found.full.stack.records
+    return advise(found.thin.fitted(found.best), tied, records, found.evidence.floor, [first, *rivals])
+
+
+def _open(after: Stage, prepared: Prepared) -> list[str]:
+    if not prepared.passes:
+        return []
+    gap = gap_after(after.problem.system, prepared.dataset.fitted, after.values, repeats=prepared.passes)
+    return not_closed(gap, prepared.passes)
+
+
+def _model(stage: Stage, prepared: Prepared, question: Question) -> FittedModel:
+    return fitted_model(
+        stage.problem,
+        stage.values,
+        _standard_errors(stage.problem, stage.values),
+        dataset=prepared.dataset,
+        model=question.model,
+        settings=question.settings,
+        preparation=replace(question.preparation, settle=prepared.passes),
+    )
+
+
+def _standard_errors(problem: Problem, values: Array) -> Array:
+    try:
+        return analyse(problem, values).standard_errors
+    except (ValueError, np.linalg.LinAlgError):
+        return np.full(values.size, np.inf)
+
+
+def _responses(ready: Dataset, before: Stage, after: Stage) -> pd.DataFrame:
+    stages = {"before": before, "after": after}
+    return response_table(
+        ready, {name: simulated(one.problem.system, ready.records, one.values) for name, one in stages.items()}
+    )

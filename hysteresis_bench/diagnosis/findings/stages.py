@@ -1,0 +1,104 @@
+"""Before and after: the bare and the final system fitted to all samples, with the same offset."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, residual_tests
+from hysteresis_bench.diagnosis.evidence.view import View
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.preparation import Prepared
+from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.fit.accuracy import Accuracy, accuracy
+from hysteresis_bench.fit.least_squares import split
+from hysteresis_bench.fit.objective import Problem
+
+
+@dataclass(frozen=True, eq=False)
+class Stage:
+    """A system with its parameters, and how far it is from the measurements.
+
+    values : (dimension,), in units;  names : of its effects
+    """
+
+    names: tuple[str, ...]
+    problem: Problem
+    values: Array
+    fitted: Accuracy
+    held_out: Accuracy | None
+    tests: tuple[ResidualTest, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Stages:
+    """offset : "" or the name of the effect that both have as an offset, or that only the final system needs
+    adopted : effects that the final system has more
+    waterfall : label and RMSE on all fitted samples, from the bare model to the final system
+    """
+
+    before: Stage
+    after: Stage
+    offset: str
+    adopted: tuple[str, ...]
+    waterfall: tuple[tuple[str, float], ...]
+
+
+def settle_offset(prepared: Prepared, found: Found, question: Question) -> Stages:
+    """Fit both ends to all samples. Where more than an offset is missing, before has the offset too: the gain is the
+    effects' own."""
+    final, order = found.final, found.order
+    offset = next((name for name in registry.OFFSETS if name in final.names), "")
+    common = registry.COMMON_OFFSET
+    adopted = (*(name for name, _ in order), *([common] if offset == common else []))
+    nuisance = frozenset(registry.OFFSETS if order else [registry.RECORD_OFFSET]) & final.names
+    bare = found.thin.bare(nuisance)
+    if final.names == nuisance and final.rmse < bare.rmse:
+        before = after = stage_of(found.full, final, prepared)
+    else:
+        before = stage_of(found.full, bare, prepared)
+        after = before if final.names == nuisance else stage_of(found.full, final, prepared)
+    return Stages(before, after, offset, adopted, _waterfall(found, question.model, before, after))
+
+
+def stage_of(fitter: Fitter, hypothesis: Hypothesis, prepared: Prepared) -> Stage:
+    """A system fitted to all samples, and its errors on what was fitted and what was not."""
+    problem = fitter.stack.problem(hypothesis.names)
+    values = fitter.polished(hypothesis)
+    ready, system = prepared.dataset, problem.system
+    residuals = split(fitter.errors(hypothesis.names, values), ready.fitted)
+    return Stage(
+        tuple(name for name, _ in system.effects),
+        problem,
+        values,
+        accuracy(system, ready.fitted, values),
+        accuracy(system, ready.held_out, values) if ready.held_out else None,
+        tuple(residual_tests(prepared.views, residuals)),
+    )
+
+
+def left_by(stage: Stage, views: Sequence[View]) -> tuple[list[Array], list[Array]]:
+    """Residuals (scored samples,) and simulated outputs (samples,), a record each."""
+    column = stage.values[:, None]
+    simulated = [stage.problem.system.respond(view.record, column)[:, 0] for view in views]
+    return [view.y - part[view.record.scored] for view, part in zip(views, simulated, strict=True)], simulated
+
+
+def _waterfall(found: Found, model: str, before: Stage, after: Stage) -> tuple[tuple[str, float], ...]:
+    offsets = frozenset(before.names) & {*registry.OFFSETS}
+    label = f"{model} with a bias" if registry.COMMON_OFFSET in offsets else f"{model} alone"
+    bars = [(label, before.fitted.rmse)]
+    for name, step in found.order[:-1]:
+        values = {**found.final.values, **step.values}
+        same = replace(step, names=(step.names - {*registry.OFFSETS}) | offsets, values=values)
+        left = found.full.errors(same.names, found.full.polished(same))
+        bars.append((name, float(np.sqrt(np.mean(left**2)))))
+    if found.order or after is not before:
+        bars.append((found.order[-1][0] if found.order else registry.COMMON_OFFSET, after.fitted.rmse))
+    return tuple(bars)

@@ -1,0 +1,201 @@
+"""Fits hypotheses: global searches, warm starts, and the errors on samples left out."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.random import default_rng
+
+from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
+from hysteresis_bench.diagnosis.evidence.blocks import Blocks
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import cut, left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
+from hysteresis_bench.diagnosis.hypotheses.starts import grid
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_of, split, values_of
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, shared_start
+from hysteresis_bench.parameters import Parameter
+
+BUDGET = 1500
+"""Evaluations of a global search: for the bare model, and when an effect has joined."""
+
+SEARCHES = 2
+CHAINS = 4
+"""Of them followed downhill."""
+
+FIRST, LAST = 8, 40
+"""Iterations of all chains, then of the best one."""
+
+RANDOM = 192
+"""Points screened for another basin of attraction after an effect has joined."""
+
+EDGE = 1e-3
+"""A parameter within this share of its box from an edge lies at its bound."""
+
+
+@dataclass(frozen=True, eq=False)
+class Fitter:
+    """Fits hypotheses to the fitted records; the same question always gets the same answer."""
+
+    stack: Stack
+    seed: int = 0
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        return cut(self.stack.records)
+
+    def fitted(self, hypothesis: Hypothesis) -> tuple[System, Array]:
+        """The system of a hypothesis, and its values (dimension,) in units."""
+        problem = self.stack.problem(hypothesis.names)
+        return problem.system, np.array([hypothesis.values[name] for name in problem.space.names])
+
+    def bare(self, names: frozenset[str]) -> Hypothesis:
+        """A global search, as nothing is known yet."""
+        problem = self.stack.problem(names)
+        starts = [self._searched(problem, run) for run in range(SEARCHES)]
+        centre = np.full((problem.space.dimension, 1), 0.5)
+        points = np.column_stack([*starts, self._random(problem, centre)])
+        return self._finished(problem, names, points)
+
+    def extended(self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None) -> Hypothesis:
+        """With one effect more, from several values of its own parameters.
+
+        other : further values of the known parameters from which to begin, such as those of a system in which
+        another effect stands in this one's place
+        """
+        names = hypothesis.names | {name}
+        problem = self.stack.problem(names)
+        new = [p for p in problem.space.parameters if p.name not in hypothesis.values]
+        spread = [*grid(new), *self._proposed(hypothesis, name)]
+        points = np.column_stack([point_of(problem, {**hypothesis.values, **values}) for values in spread])
+        if new:
+            points = points[:, self._promising(hypothesis, problem, points, hypothesis.values)]
+        if other is not None:
+            exchanged = np.column_stack(
+                [point_of(problem, {**hypothesis.values, **other, **values}) for values in spread]
+            )
+            best = np.argsort(problem.squares(exchanged), kind="stable")[:CHAINS]
+            points = np.column_stack([points, exchanged[:, best]])
+        return self._finished(problem, names, points)
+
+    def reduced(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
+        """With one effect less."""
+        names = hypothesis.names - {name}
+        problem = self.stack.problem(names)
+        known = {
+            **hypothesis.values,
+            **{p.name: 0.5 * (p.lower + p.upper) for p in problem.space.parameters if p.name not in hypothesis.values},
+        }
+        point = point_of(problem, known)[:, None]
+        return self._finished(problem, names, np.column_stack([point, self._random(problem, point)[:, :2]]))
+
+    def refitted(self, hypothesis: Hypothesis) -> Hypothesis:
+        """From other starts as well: what an effect explains may have been bent into the values of others."""
+        problem = self.stack.problem(hypothesis.names)
+        point = point_of(problem, hypothesis.values)[:, None]
+        own = [p.name for p in self.stack.model.parameters if p.name in hypothesis.values]
+        effects = np.array([name not in own for name in problem.space.names])
+        starts = [point, self._random(problem, point), self._searched(problem, 0)[:, None]]
+        if effects.any():
+            elsewhere = np.repeat(point, RANDOM, axis=1)
+            elsewhere[effects, 1:] = default_rng(self.seed).random((int(effects.sum()), RANDOM - 1))
+            starts.append(elsewhere[:, self._promising(hypothesis, problem, elsewhere, own)[1:]])
+        found = self._finished(problem, hypothesis.names, np.column_stack(starts))
+        return found if found.rmse < hypothesis.rmse else hypothesis
+
+    def polished(self, hypothesis: Hypothesis) -> Array:
+        """Values (dimension,) in units, from those of a hypothesis that was fitted to thinned records."""
+        problem = self.stack.problem(hypothesis.names)
+        point, _ = descend(problem, point_of(problem, hypothesis.values)[:, None], iterations=LAST)
+        return problem.space.from_unit(point)[:, 0]
+
+    def errors(self, names: Collection[str], values: Array) -> Array:
+        """Measured minus simulated (scored samples,); values : (dimension,), in units."""
+        problem = self.stack.problem(names)
+        return errors(problem, problem.space.to_unit(values[:, None]))[:, 0]
+
+    def test(self, smaller: Hypothesis, larger: Hypothesis) -> NestedTest:
+        """Is the larger one better than chance?"""
+        known, all_ = (len(self.stack.problem(hypothesis.names).space.names) for hypothesis in (smaller, larger))
+        offsets = len(self.stack.records)
+        count = [offsets if registry.RECORD_OFFSET in hypothesis.names else 0 for hypothesis in (smaller, larger)]
+        nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
+        added = all_ - known + count[1] - count[0]
+        less, more = (split(hypothesis.residuals, self.stack.records) for hypothesis in (smaller, larger))
+        return nested_test(less, more, max(added, 1) + (0 if nuisance else SEARCHED), all_ + count[1])
+
+    def _proposed(self, hypothesis: Hypothesis, name: str) -> list[dict[str, float]]:
+        """What the effect itself proposes, from the residuals."""
+        residuals = split(hypothesis.residuals, self.stack.records)
+        proposals = self.stack.effect(name).starts(self.stack.records, residuals)
+        return [{f"{name}.{key}": value for key, value in proposal.items()} for proposal in proposals]
+
+    def _promising(self, hypothesis: Hypothesis, problem: Problem, points: Array, following: Collection[str]) -> Array:
+        """Columns that leave least once the `following` parameters have followed to first order, unlike each
+        other; the first column always."""
+        known = self.stack.problem(hypothesis.names)
+        left = errors(problem, points)
+        rows = [row for row, name in enumerate(known.space.names) if name in following]
+        if rows:
+            slopes = jacobian(known, point_of(known, hypothesis.values)[:, None])[1][:, 0, rows]
+            basis = np.linalg.svd(slopes, full_matrices=False)[0]
+            left = left - basis @ (basis.T @ left)
+        order = np.argsort(np.einsum("ij,ij->j", left, left), kind="stable")
+        chosen: list[int] = [0]
+        for column in order:
+            if len(chosen) == CHAINS + 1:
+                break
+            apart = np.max(np.abs(points[:, chosen] - points[:, [column]]), axis=0)
+            if np.all(apart > 0.05):
+                chosen.append(int(column))
+        return np.array(chosen)
+
+    def _searched(self, problem: Problem, run: int) -> Array:
+        """The best point (dimension,) of a global search."""
+        if not problem.space.dimension:
+            return np.empty(0)
+        start = shared_start(problem.space.dimension, self.seed, "diagnosis", run)
+        optimizer = registry.build("optimizers", registry.SEARCH)
+        rng = generator(self.seed, "diagnosis", run)
+        found = search(problem, optimizer, budget=BUDGET, start=start, rng=rng)
+        return problem.space.to_unit(found.values[:, None])[:, 0]
+
+    def _random(self, problem: Problem, around: Array) -> Array:
+        """The best of random points: anywhere, and with some of the parameters as they are."""
+        dimension = problem.space.dimension
+        rng = default_rng(self.seed)
+        points = rng.random((dimension, RANDOM))
+        points[:, RANDOM // 2 :] = np.where(
+            rng.random((dimension, RANDOM // 2)) < 0.5, points[:, RANDOM // 2 :], around
+        )
+        return points[:, np.argsort(problem.squares(points), kind="stable")[:CHAINS]]
+
+    def _finished(self, problem: Problem, names: frozenset[str], starts: Array) -> Hypothesis:
+        points, squares = descend(problem, starts, iterations=FIRST)
+        best = points[:, np.argsort(squares, kind="stable")[:2]]
+        points, squares = descend(problem, best, iterations=FIRST)
+        points, squares = descend(problem, points[:, [int(np.argmin(squares))]], iterations=LAST)
+        point = points[:, 0]
+        return Hypothesis(
+            names,
+            values_of(problem, point),
+            errors(problem, points)[:, 0],
+            left_out_errors(problem, point, self.blocks),
+            tuple(p.name for p, x in zip(problem.space.parameters, point, strict=True) if _at_bound(p, x)),
+        )
+
+
+def _at_bound(parameter: Parameter, x: float) -> bool:
+    if EDGE < x < 1.0 - EDGE:
+        return False
+    edge = parameter.lower if x <= EDGE else parameter.upper
+    off = parameter.null is not None and (edge == parameter.null or (parameter.scaling == "log" and x <= EDGE))
+    return not off

@@ -1,0 +1,36 @@
+"""One hypothesis, fitted: a set of effects around the model, with its errors fitted and left out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+
+
+@dataclass(frozen=True, eq=False)
+class Hypothesis:
+    """names : the effects;  values : by parameter's name, in units
+    residuals, left_out : (scored samples,), measured minus simulated: of the fit, and of samples left out of it
+    at_bound : parameters at an edge of their box that does not mean "off"
+    """
+
+    names: frozenset[str]
+    values: Mapping[str, float]
+    residuals: Array
+    left_out: Array
+    at_bound: tuple[str, ...]
+
+    @property
+    def rmse(self) -> float:
+        return float(np.sqrt(np.mean(self.residuals**2)))
+
+    @property
+    def cv_rmse(self) -> float:
+        return float(np.sqrt(np.mean(self.left_out**2)))
+
+    def apart(self, other: Hypothesis) -> float:
+        """RMS difference of the two fitted outputs, unit of the output."""
+        return float(np.sqrt(np.mean((self.residuals - other.residuals) ** 2)))

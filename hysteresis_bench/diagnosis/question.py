@@ -1,0 +1,88 @@
+"""What is asked of a diagnosis, beside the data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import Model
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.checks.asked import asked_faults
+from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.signals import Dataset
+
+FEWEST_SAMPLES = 40
+"""Scored samples below which a fitted record tells too little of its noise to be diagnosed."""
+
+
+@dataclass(frozen=True)
+class DiagnosisOptions:
+    """How a diagnosis is made.
+
+    seed : of all searches;  jobs : processes; default: as many as cores, at most 4
+    input_offset, flip : the model sees (input - input_offset), times -1 with flip
+    skip : seconds at the start of every record that are simulated and not scored
+    settle : closed loops are repeated until they close before they are scored
+    accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
+    """
+
+    seed: int = 0
+    jobs: int | None = None
+    input_offset: float = 0.0
+    flip: bool = False
+    skip: float = 0.0
+    settle: bool = False
+    accept_terms: bool = False
+
+
+@dataclass(frozen=True)
+class Question:
+    """What does this model lack on the fitted records?
+
+    model, settings : a registered model;  effects : known to act, around the model from the beginning
+    bounds : replaces parts of the box that follows from the records;  fixed : parameters that are known
+    """
+
+    model: str
+    effects: Sequence[str] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    fixed: Mapping[str, float] = field(default_factory=dict)
+    options: DiagnosisOptions = DiagnosisOptions()
+
+    @property
+    def preparation(self) -> Preparation:
+        """What is done to every record before the model sees it; how often a loop is passed is found out later."""
+        return Preparation(self.options.input_offset, self.options.flip, self.options.skip)
+
+    @property
+    def built(self) -> Model:
+        """Raises ValueError where there is no such model, or not with these settings."""
+        model: Model = registry.build("models", self.model, self.settings)
+        return model
+
+    def check(self, dataset: Dataset) -> None:
+        """Raises UserError telling every fault of the question and of the records at once; dataset : as measured."""
+        if faults := self.preparation.faults(dataset.records):
+            raise UserError("diagnose", faults)
+        dataset = dataset.map(self.preparation.skipped)
+        faults = asked_faults(self.model, self.settings, self.effects)
+        if not faults:
+            known = registry.build_effects(self.built, self.effects)
+            reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}
+            faults += [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]
+        faults += open_loops(dataset.records) if self.options.settle else []
+        for record in dataset.fitted:
+            if np.ptp(record.measured) == 0:
+                faults.append(f"record {record.name}: the output is constant; there is nothing to diagnose.")
+            elif record.measured.size < FEWEST_SAMPLES:
+                faults.append(
+                    f"record {record.name}: {record.measured.size} samples are too few; {FEWEST_SAMPLES} are needed."
+                )
+        if faults:
+            raise UserError("diagnose", faults)

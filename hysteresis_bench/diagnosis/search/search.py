@@ -1,0 +1,109 @@
+"""The search: from the bare model to the effects that the data ask for, with all that was tried on the way."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.evidence.evidence import Evidence
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.preparation import Prepared, thinned
+from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.disturbance import undisturbed
+from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back
+from hysteresis_bench.diagnosis.search.follows import follows
+from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
+from hysteresis_bench.diagnosis.search.selection import Selection
+
+QUIETER = 0.9
+"""The noise without a disturbance that was found, over that with it, from which the search goes on with the new
+estimate."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What the search found.
+
+    full, thin : fitters of all samples, and of those that the search worked on
+    base : the bare model with each record's offset;  best : what was selected, with each record's offset
+    final : the same with the simplest offset;  follows : does the response to the input explain the output?
+    order : the adopted effects, the one that helps most first, each with the system that it completes
+    given_up : what predicted excitations left out worse than the bare model
+    rivals : for each adopted effect, what would do as well in its place, and that system
+    without : for each adopted effect, the selected system without it
+    impossible : effects that cannot be tried, with the reason
+    """
+
+    full: Fitter
+    thin: Fitter
+    evidence: Evidence
+    selection: Selection
+    base: Hypothesis
+    best: Hypothesis
+    final: Hypothesis
+    follows: bool
+    order: tuple[tuple[str, Hypothesis], ...]
+    given_up: Fallback | None
+    rivals: Mapping[str, Mapping[str, Hypothesis]]
+    without: Mapping[str, Hypothesis]
+    impossible: Mapping[str, str]
+
+
+def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
+    """In as many processes as the question's options say."""
+    records = prepared.dataset.fitted
+    full, thin = (
+        Fitter(
+            Stack(prepared.model, part, tuple(question.effects), question.bounds, question.fixed), question.options.seed
+        )
+        for part in (records, thinned(prepared.views))
+    )
+    possible, impossible = thin.stack.candidates()
+    with Workers(thin, question.options.jobs or min(4, os.cpu_count() or 1)) as workers:
+        selection = Selection(thin, workers, evidence.floor, possible)
+        base = thin.bare(frozenset({registry.RECORD_OFFSET}))
+        best = selection.run(base)
+        quieter = evidence.heard_anew(undisturbed(full, best))
+        if quieter.noise.floor < QUIETER * evidence.noise.floor:
+            evidence = quieter
+            selection.floor = evidence.floor
+            best = selection.run(best)
+        answers = follows(full, best)
+        best = best if answers else base
+        order = _in_order(selection, base, best)
+        given_up = fall_back(thin, base, order)
+        if given_up:
+            order = order[: len(order) - len(given_up.dropped)]
+            best = order[-1][1] if order else base
+        final = with_simplest_offset(selection, best)
+        return Found(
+            full=full,
+            thin=thin,
+            evidence=evidence,
+            selection=selection,
+            base=base,
+            best=best,
+            final=final,
+            follows=answers,
+            rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
+            without={name: selection.without(best, name) for name in selection.adopted(best)},
+            order=order,
+            given_up=given_up,
+            impossible=impossible,
+        )
+
+
+def _in_order(selection: Selection, base: Hypothesis, best: Hypothesis) -> tuple[tuple[str, Hypothesis], ...]:
+    """The adopted effects, the one that helps most first, each with the system that it completes."""
+    current, steps = base, []
+    while left := best.names - current.names:
+        names = sorted(left)
+        ranked = zip(selection.with_each(current, names), names, strict=True)
+        current, most = min(ranked, key=lambda pair: pair[0].rmse)
+        steps.append((most, current))
+    return tuple(steps)

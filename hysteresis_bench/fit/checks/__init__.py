@@ -1,0 +1,1 @@
+"""What is checked before a fit: what was asked for, and what the plugins do."""

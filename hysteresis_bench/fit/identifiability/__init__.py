@@ -1,0 +1,1 @@
+"""What the data determine: standard errors, and parameters that act only together."""

@@ -1,0 +1,83 @@
+"""What is done to a record before a model sees it; it travels with a fitted model, and predictions repeat it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hysteresis_bench.data.units import seconds_in
+from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed
+from hysteresis_bench.signals import INDEX, Record
+
+SHOWN = 8
+"""Names that a sentence lists."""
+
+
+@dataclass(frozen=True)
+class Preparation:
+    """What is done to a record before a model sees it.
+
+    input_offset : subtracted from the input;  flip : changes its sign then
+    skip : seconds at the start (samples, where time is an index) that are simulated and not scored
+    settle : how often a closed loop is passed before it is scored; 0 where it is not
+    """
+
+    input_offset: float = 0.0
+    flip: bool = False
+    skip: float = 0.0
+    settle: int = 0
+
+    def __post_init__(self) -> None:
+        """Raises ValueError for what cannot be done to a record."""
+        if not (np.isfinite(self.input_offset) and 0.0 <= self.skip < np.inf and 0 <= self.settle <= MOST_REPEATS):
+            raise ValueError(f"no record can be prepared by {self}.")
+
+    def __call__(self, record: Record) -> Record:
+        """The record as the model sees it; one that is no closed loop is passed once."""
+        sign = -1.0 if self.flip else 1.0
+        ready = replace(self.skipped(record), input=sign * (record.input - self.input_offset))
+        return ready.settled(self.settle) if self.settle and is_closed(record) else ready
+
+    def skipped(self, record: Record) -> Record:
+        """The record as it is, its beginning turned into history."""
+        return record.skip(seconds_in(record.units.get("time", "s"), self.skip)) if self.skip else record
+
+    def measured_input(self, seen: float) -> float:
+        """The actuator's input for the one that the model sees."""
+        return (-seen if self.flip else seen) + self.input_offset
+
+    def faults(self, records: Sequence[Record]) -> list[str]:
+        """A sentence on every record of which skipping leaves nothing to score."""
+        return [
+            f"record {record.name}: skipping {self.skip:g} s leaves nothing of it: it lasts "
+            f"{float(np.ptp(record.time)):g} {record.units.get('time', 's')}."
+            for record in records
+            if self.skipped(record).history > record.time.size - 2
+        ]
+
+    def words(self, records: Sequence[Record], time: str) -> list[str]:
+        """What is done to these records because the fit did it, a sentence; and on those it cannot be done to.
+
+        time : the unit of time
+        """
+        done = []
+        if self.input_offset:
+            done.append(f"{self.input_offset:g} is subtracted from the input")
+        if self.flip:
+            done.append("the sign of the input is changed")
+        if self.skip:
+            done.append(f"the first {self.skip:g} {INDEX if time == INDEX else 's'} are history and not scored")
+        closed = [record for record in records if is_closed(record)]
+        if self.settle and closed:
+            done.append(f"closed loops are passed {self.settle} times before the pass that counts")
+        found = [f"As for the fit, {', '.join(done)}."] if done else []
+        still = [record.name for record in records if not is_closed(record)] if self.settle else []
+        if still:
+            named = ", ".join(still[:SHOWN]) + (f" and {len(still) - SHOWN} more" if len(still) > SHOWN else "")
+            found.append(f"No closed loop, so not repeated as the fit's loops were: {named}.")
+        return found
+
+
+AS_IT_IS = Preparation()

@@ -1,0 +1,109 @@
+"""The tables of a diagnosis: candidates, parameters that came with the effects, residual tests."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
+from hysteresis_bench.diagnosis.findings.diagnosis_file import ADOPTED, TIED
+from hysteresis_bench.report.shared.blocks import ESTIMATE_HEADER, ESTIMATE_NOTE, Cell, Table, estimate_cells
+from hysteresis_bench.report.shared.text import (
+    NONE,
+    Units,
+    listed,
+    named,
+    number,
+    percent,
+    probability,
+    sentence,
+)
+
+TONES = {ADOPTED: "good", TIED: "bad"}
+
+
+def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units) -> Table:
+    """Every effect that the data and the model can show."""
+    rmse = named("RMSE", units, "output")
+    return Table(
+        "Effects considered",
+        [
+            "Effect",
+            "Verdict",
+            f"{rmse}, blocks left out",
+            "p",
+            "Clear by",
+            "Explains",
+            "Its parameters",
+            "Tied with",
+        ],
+        [_candidate(candidate) for candidate in candidates if candidate["applicable"]],
+        note="An adopted effect is judged against the final model without it, any other against the final model with "
+        "it. p of the nested-model test, before the correction for the number of candidates. Clear by: how many "
+        "standard errors it wins on blocks of samples that were left out of the fit. Explains: its share of the mean "
+        "square over the noise that is left without it; what explains less than half is not named, as it may be a part "
+        "of what is wrong for another reason.",
+    )
+
+
+def _candidate(candidate: Mapping[str, Any]) -> list[str | Cell]:
+    adopted, judgement = candidate["adopted"], candidate["judgement"]
+    values = [
+        f"{name} {number(value, 3)}"
+        f"{' (at its bound)' if any(key.endswith(name) for key in candidate['at_bound']) else ''}"
+        for name, value in candidate["parameters"].items()
+    ]
+    return [
+        Cell(candidate["effect"], strong=adopted),
+        Cell(judgement, TONES.get(judgement, "quiet"), strong=adopted),
+        number(candidate["cv_rmse"]),
+        probability(candidate["p_value"]),
+        number(candidate["advantage"], 2),
+        percent(candidate["share"]),
+        Cell(", ".join(values) or NONE, "prose"),
+        listed(candidate["tied_with"]) if candidate["tied_with"] else NONE,
+    ]
+
+
+def added_table(model: Mapping[str, Any], effects: Sequence[str]) -> Table | None:
+    """Parameters of the adopted effects with standard errors; None without one.
+
+    model : the content of model.json. What the model itself offers as an effect has the effect's name there.
+    """
+    found = [(name, estimate) for name, estimate in model["parameters"].items() if name in effects]
+    for effect in model["effects"]:
+        if effect["effect"] in effects:
+            found += [(f"{effect['effect']}.{name}", estimate) for name, estimate in effect["parameters"].items()]
+    rows = [
+        estimate_cells(name, each["value"], each["standard_error"], unit=each["unit"], digits=5) for name, each in found
+    ]
+    return Table("Parameters that came with the effects", ESTIMATE_HEADER, rows, ESTIMATE_NOTE) if rows else None
+
+
+def tests_tables(residual: Mapping[str, Sequence[Mapping[str, Any]]]) -> tuple[Table, Table]:
+    """What was looked for in the residual, before and after: over all records, and record by record.
+
+    residual : tests before and after. Of one record alone, its tests are those over all.
+    """
+    several = any(test["record"] == OVERALL for test in residual["after"])
+    before = {(test["record"], test["test"]): test for test in residual["before"]}
+    overall: list[list[str | Cell]] = []
+    single: list[list[str | Cell]] = []
+    for test in residual["after"]:
+        name, first = test["test"].replace("-", " "), before.get((test["record"], test["test"]))
+        of_all = test["record"] == OVERALL or not several
+        (overall if of_all else single).append(
+            [
+                name if of_all else f"{test['record']}, {name}",
+                Cell(probability(first["p_value"]) if first else NONE, "bad" if first and first["significant"] else ""),
+                Cell(probability(test["p_value"]), "bad" if test["significant"] else ""),
+                Cell(percent(test["share"], 2)),
+                Cell(sentence(test["words"]), "prose"),
+            ]
+        )
+    header = ["Looked for", "p before", "p after", "Of its variance", "After, in words"]
+    note = "p corrected for all tests made, and for samples that are not independent."
+    return (
+        Table("Is there structure in the residual?", header, overall, note),
+        Table("Record by record", header, single, note),
+    )

@@ -1,0 +1,1 @@
+"""How the searches of a study went."""

@@ -1,0 +1,56 @@
+"""How the parameters of the best so far moved during a search, trial by trial."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from hysteresis_bench.report.shared.text import whole
+from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, picture
+from hysteresis_bench.study.results import Results
+
+COLUMNS = 3
+MOST = 8
+"""Trials shown: more lines than this cannot be followed."""
+
+
+def parameters_by_iteration(results: Results, problem: str, label: str, *, folder: Path, name: str) -> Picture | None:
+    """Fitness and parameters of the best so far, a panel each, a line a trial; None where there is no trace."""
+    traces = [trace for (where, who, _), trace in sorted(results.traces.items()) if (where, who) == (problem, label)]
+    traces = [trace for trace in traces[:MOST] if trace.evaluations.size]
+    analysis = results.identifiability.get(problem, {})
+    if not traces or "names" not in analysis:
+        return None
+    spec = next(spec for spec in results.study.optimizer if spec.name == label)
+    budget = results.study.budget_of(spec)
+    cost = results.provenance.get("optimizers", {}).get(label, {}).get("evaluations_per_iteration")
+    units = ["" if unit == "1" else f" ({unit})" for unit in analysis["units"]]
+    panels = ["Fitness", *(f"{name}{unit}" for name, unit in zip(analysis["names"], units, strict=True))]
+    height = -(-len(panels) // COLUMNS)
+
+    def draw(figure: Any) -> None:
+        axes = figure.subplots(height, COLUMNS, sharex=True, squeeze=False).ravel()
+        for index, (panel, title) in enumerate(zip(axes, panels, strict=False)):
+            for number, trace in enumerate(traces):
+                values = trace.losses if index == 0 else trace.points[:, index - 1]
+                when = np.append(trace.evaluations, budget) / (cost or 1)
+                colour = SERIES[number % len(SERIES)]
+                panel.step(when, np.append(values, values[-1]), where="post", color=colour, linewidth=1.0)
+            panel.set_title(title, fontweight="normal")
+            panel.tick_params(axis="x", labelbottom=index + COLUMNS >= len(panels))
+            everything = np.concatenate([line.get_ydata() for line in panel.lines])
+            if everything.min() > 0 and everything.max() > 20 * everything.min():
+                panel.set_yscale("log")
+                panel.tick_params(axis="y", which="minor", labelleft=False)
+        for panel in axes[len(panels) :]:
+            panel.set_visible(False)
+        figure.supxlabel("Iterations" if cost else "Evaluations", fontsize=8.5, color=MUTED)
+
+    iteration = f"; an iteration is {whole(cost)} evaluations" if cost else ""
+    caption = f"{problem}: fitness and parameters of the best so far by {label}, a colour a trial{iteration}. Where "
+    caption += "fitness ends alike and a parameter does not, the data do not tell that parameter."
+    return picture(
+        folder, name, (7.4, 0.5 + 1.45 * height), alt=f"Search by {label}. {caption}", caption=caption, draw=draw
+    )

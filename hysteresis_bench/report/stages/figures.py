@@ -1,0 +1,72 @@
+"""Figures of a stage: the whole model beside the measurement, over time and as a loop."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench.report.shared.signal_figures import Parts, loop
+from hysteresis_bench.report.shared.text import Units, named
+from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, legend, picture
+
+CYCLES = 3
+"""Cycles of a periodic record that a figure shows: all of them would be a smear."""
+
+
+def stage_figures(
+    folder: Path, number: int, responses: pd.DataFrame, *, units: Units
+) -> tuple[list[Picture], list[Picture]]:
+    """Fits over time and loops, one of each a record. responses : of the stage;  number : in the names of figures"""
+    fits: list[Picture] = []
+    loops: list[Picture] = []
+    if responses.empty:
+        return fits, loops
+    for j, (record, rows) in enumerate(responses.groupby("record", sort=False), 1):
+        parts = {
+            str(label): (_window(part), colour)
+            for (label, part), colour in zip(rows.groupby("optimizer", sort=False), SERIES, strict=False)
+        }
+        shown = _shown(rows, parts)
+        caption = f"{record}: fit above, simulated minus measured below{shown}."
+        fits.append(_fit(folder, f"stage-{number}-fit-{j}", parts, units, caption))
+        caption = f"{record}: hysteresis loops, measured and simulated{shown}."
+        loops.append(loop(folder, f"stage-{number}-loop-{j}", parts, units=units, caption=caption))
+    return fits, loops
+
+
+def _fit(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> Picture:
+    """Measured and simulated above, the errors below."""
+    measured, _ = next(iter(parts.values()))
+
+    def draw(figure: Any) -> None:
+        upper, lower = figure.subplots(2, 1, sharex=True)
+        upper.plot(measured["time"], measured["output"], color=MUTED, linewidth=2.6, alpha=0.55, label="measured")
+        lower.axhline(0, color=MUTED, linewidth=0.8)
+        for who, (rows, colour) in parts.items():
+            upper.plot(rows["time"], rows["simulated"], color=colour, linewidth=1.0, label=who)
+            lower.plot(rows["time"], rows["simulated"] - rows["output"], color=colour, linewidth=0.9)
+        upper.set_ylabel(named("Output", units, "output"))
+        lower.set_ylabel(named("Error", units, "output"))
+        lower.set_xlabel(named("Time", units, "time"))
+        legend(upper, 3)
+        figure.align_ylabels()
+
+    return picture(
+        folder, name, (4.6, 3.6), alt=f"Measured and simulated output. {caption}", caption=caption, draw=draw
+    )
+
+
+def _window(rows: pd.DataFrame) -> pd.DataFrame:
+    """The last CYCLES of a record that has many; all of one that has few."""
+    drive = rows["input"].to_numpy(dtype=float)
+    starts = np.nonzero((drive[:-1] < 0.0) & (drive[1:] >= 0.0))[0]
+    return rows.iloc[starts[-CYCLES - 1] :] if starts.size > 3 * CYCLES else rows
+
+
+def _shown(rows: pd.DataFrame, parts: Parts) -> str:
+    window, _ = next(iter(parts.values()))
+    whole = rows[rows["optimizer"] == rows["optimizer"].iloc[0]]
+    return f", last {CYCLES} cycles" if len(window) < len(whole) else ""

@@ -1,0 +1,157 @@
+"""One trial in a worker process: a study, a problem, an optimizer, a number in; an outcome out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache, partial
+from pathlib import Path
+
+import numpy as np
+
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import Optimizer
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.checks.behaviour import BrokenPromise, broken_promises
+from hysteresis_bench.fit.search import search
+from hysteresis_bench.fit.seeds import generator, seed_of, shared_start
+from hysteresis_bench.study.origin import origin, plugins_of_problem, plugins_of_trial
+from hysteresis_bench.study.problems import Built, build_problem
+from hysteresis_bench.study.store import Outcome
+from hysteresis_bench.study.study_file import Study
+
+
+@dataclass(frozen=True)
+class Ticket:
+    """Which trial to run. The study travels as text, so that a worker parses it once.
+
+    alone : in a process of its own, as it runs a plugin of another distribution
+    """
+
+    study: str
+    folder: str
+    problem: str
+    optimizer: str
+    trial: int
+    alone: bool = False
+
+    @property
+    def key(self) -> tuple[str, str, int]:
+        return self.problem, self.optimizer, self.trial
+
+
+def seed_key(study: Study, ticket: Ticket) -> tuple[object, ...]:
+    """What the optimizer's random numbers depend on."""
+    return study.seed, ticket.problem, ticket.optimizer, ticket.trial
+
+
+def prepare_trial(ticket: Ticket) -> Callable[[], Outcome]:
+    """Everything that a trial needs but its search: the study, the data, the compiled problem, the optimizer."""
+    study = _study(ticket.study)
+    built = _built(ticket.study, ticket.folder, ticket.problem)
+    spec = next(spec for spec in study.optimizer if spec.name == ticket.optimizer)
+    optimizer = registry.build("optimizers", spec.plugin, spec.settings)
+    return partial(run_trial, ticket, built, optimizer, study.budget_of(spec))
+
+
+def run_trial(ticket: Ticket, built: Built, optimizer: Optimizer, budget: int) -> Outcome:
+    """Search, then measure the best point on the fitted and on the held-out records."""
+    study, problem = _study(ticket.study), built.problem
+    start = shared_start(problem.space.dimension, study.seed, ticket.problem, ticket.trial)
+    key = seed_key(study, ticket)
+
+    begun = time.process_time()  # of this process alone: what else the machine does is not the optimizer's cost
+    found = search(problem, optimizer, budget=budget, start=start, rng=generator(*key))
+    seconds = time.process_time() - begun
+
+    ended = Outcome(
+        *ticket.key,
+        seed=seed_of(*key)[:16],
+        status="done" if found.spent else "finished-early",
+        reason="" if found.spent else f"returned after {found.evaluations} of {budget} evaluations",
+        evaluations=found.evaluations,
+        seconds=seconds,
+        origin=_origin(ticket.study, ticket.problem, ticket.optimizer),
+    )
+    if not found.loss < problem.ceiling:
+        return replace(ended, status="no-finite-loss", reason=f"none of {found.evaluations} simulations was finite")
+    fitted = accuracy(problem.system, built.dataset.fitted, found.values)
+    held_out = built.dataset.held_out
+    unseen = accuracy(problem.system, held_out, found.values).rmse if held_out else None
+    return replace(
+        ended,
+        reason=ended.reason if unseen is None or np.isfinite(unseen) else "the held-out records simulate to no number",
+        fitness=found.loss,
+        rmse=fitted.rmse,
+        relative_rms=fitted.relative_rms,
+        max_error=fitted.max_error,
+        held_out_rmse=unseen if unseen is not None and np.isfinite(unseen) else None,
+        parameters=dict(zip(problem.space.names, map(float, found.values), strict=True)),
+        trace=found.trace,
+    )
+
+
+def tickets_of(study: Study, data: Path, trials: int) -> list[Ticket]:
+    """Every trial of a study, one trial of everything after the other: one that is stopped has as much of all.
+
+    data : the folder where relative data files are looked for
+    """
+    text, folder = study.model_dump_json(), str(data.resolve())
+    optimizers = {spec.name: spec for spec in study.optimizer}
+    strange = {
+        (problem.name, label): not all(plugin.shipped for plugin in plugins_of_trial(problem, optimizers[label]))
+        for problem in study.problem
+        for label in problem.optimizers or study.labels
+    }
+    return [Ticket(text, folder, *pair, trial, alone) for trial in range(trials) for pair, alone in strange.items()]
+
+
+def needs_own_process(ticket: Ticket) -> bool:
+    return ticket.alone
+
+
+def rehearsals(tickets: Sequence[Ticket]) -> list[Callable[[], object]]:
+    """What the trials of shipped plugins have in common, done once before any of them: the problems, and an evaluation
+    by every optimizer, which imports and compiles what it needs."""
+    first = {(ticket.study, ticket.optimizer): ticket for ticket in reversed(tickets) if not ticket.alone}
+    problems = {ticket.problem: ticket for ticket in tickets if not ticket.alone}
+    builds: list[Callable[[], object]] = [
+        partial(_built, ticket.study, ticket.folder, ticket.problem) for ticket in problems.values()
+    ]
+    return builds + [partial(_rehearse, ticket) for ticket in first.values()]
+
+
+def _rehearse(ticket: Ticket) -> None:
+    study, built = _study(ticket.study), _built(ticket.study, ticket.folder, ticket.problem)
+    spec = next(spec for spec in study.optimizer if spec.name == ticket.optimizer)
+    start = shared_start(built.problem.space.dimension, "rehearsal")
+    optimizer = registry.build("optimizers", spec.plugin, spec.settings)
+    search(built.problem, optimizer, budget=1, start=start, rng=generator("rehearsal"))
+
+
+@lru_cache(maxsize=4)
+def _study(text: str) -> Study:
+    return Study.model_validate_json(text)
+
+
+@cache
+def _origin(text: str, problem: str, optimizer: str) -> str:
+    study = _study(text)
+    spec = next(spec for spec in study.optimizer if spec.name == optimizer)
+    return origin(plugins_of_trial(next(each for each in study.problem if each.name == problem), spec))
+
+
+@lru_cache(maxsize=32)
+def _built(text: str, folder: str, problem: str) -> Built:
+    """The problem, kept for the worker's next trials; simulated once, so that no trial pays for compilation."""
+    study = _study(text)
+    spec = next(spec for spec in study.problem if spec.name == problem)
+    built = build_problem(spec, study.seed, Path(folder))
+    foreign = not all(plugin.shipped for plugin in plugins_of_problem(spec))  # our own are tested
+    if foreign and (broken := broken_promises(built.problem.system, built.dataset.fitted)):
+        raise BrokenPromise(" ".join(broken))
+    middle = np.full((built.problem.space.dimension, 1), 0.5)
+    built.problem.losses(middle)
+    built.problem.losses(np.repeat(middle, 9, axis=1))
+    return built

@@ -1,0 +1,84 @@
+"""What a trial is made with: plugins and their distributions, package versions, the processor; do all agree?"""
+
+from __future__ import annotations
+
+import json
+import platform
+from collections.abc import Mapping, Sequence
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from hysteresis_bench import registry
+from hysteresis_bench.study.study_file import OptimizerSpec, ProblemSpec, Study
+
+PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "matplotlib")
+
+
+def plugins_of(study: Study) -> list[registry.Plugin]:
+    """Every plugin that a study names."""
+    named: list[tuple[registry.Kind, str]] = [("optimizers", spec.plugin) for spec in study.optimizer]
+    named += [("models", stage.model) for stage in study.stage]
+    if study.closing:
+        named += [("models", study.closing.model), *(("effects", name) for name in study.closing.effects)]
+    return [*_loaded(named), *(plugin for problem in study.problem for plugin in plugins_of_problem(problem))]
+
+
+def plugins_of_trial(problem: ProblemSpec, optimizer: OptimizerSpec) -> list[registry.Plugin]:
+    """Every plugin that a trial runs."""
+    return [*_loaded([("optimizers", optimizer.plugin)]), *plugins_of_problem(problem)]
+
+
+def plugins_of_problem(problem: ProblemSpec) -> list[registry.Plugin]:
+    """The model, the effects and the rig of a problem."""
+    named: list[tuple[registry.Kind, str]] = [("models", problem.model), *(("effects", e) for e in problem.effects)]
+    return _loaded([*named, ("rigs", problem.rig)] if problem.rig else named)
+
+
+def _loaded(named: Sequence[tuple[registry.Kind, str]]) -> list[registry.Plugin]:
+    """Effects that a model offers are its own: they are no plugins."""
+    return [registry.load(kind, name) for kind, name in dict.fromkeys(named) if name in registry.names(kind)]
+
+
+def origin(plugins: Sequence[registry.Plugin]) -> str:
+    """What a trial in this process is made with: package versions, those of other distributions, the processor."""
+    others = {plugin.distribution: plugin.version for plugin in plugins if not plugin.shipped}
+    return json.dumps({"processor": processor(), **versions(), **others}, sort_keys=True)
+
+
+def mixed(origins: Mapping[str, int]) -> tuple[str, ...]:
+    """A sentence for each thing in which trials differ; origins : how many trials have which."""
+    read = [(json.loads(text), trials) for text, trials in origins.items()]
+    sentences = []
+    for name in sorted({name for made_by, _ in read for name in made_by}):
+        counts: dict[str, int] = {}
+        for made_by, trials in read:
+            if name in made_by:  # a distribution that a trial did not use is no difference
+                counts[made_by[name]] = counts.get(made_by[name], 0) + trials
+        if len(counts) > 1:
+            parts = [f"{trials} with {version}" for version, trials in counts.items()]
+            sentences.append(f"Trials were not all made with the same {name}: {', '.join(parts)}.")
+    return tuple(sentences)
+
+
+@cache
+def versions() -> Mapping[str, str]:
+    """Of Python and of the packages that numbers may depend on."""
+    return {"python": platform.python_version(), **{name: _version(name) for name in PACKAGES}}
+
+
+def _version(package: str) -> str:
+    try:
+        return version(package)
+    except PackageNotFoundError:
+        return "not installed"
+
+
+@cache
+def processor() -> str:
+    """The processor's name, as the system gives it."""
+    try:
+        lines = Path("/proc/cpuinfo").read_text().splitlines()
+    except OSError:
+        return platform.processor()
+    return next((line.split(":", 1)[1].strip() for line in lines if line.startswith("model name")), "unknown")

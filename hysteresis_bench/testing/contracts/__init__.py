@@ -1,0 +1,1 @@
+"""What every kind of plugin promises, a test each."""

@@ -1,0 +1,32 @@
+"""Where effects stand in the chain follows from what they declare."""
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.hypotheses.systems import place
+
+CHAIN = [
+    "eddy-current",
+    "rayleigh-hysteresis",
+    "backlash",
+    "asymmetry",
+    "input-lag",
+    "saturation",
+    "fatigue",
+    "temperature-sensitivity",
+    "creep",
+    "output-lag",
+    "resonance",
+    "transport-delay",
+    "periodic-disturbance",
+    "drift",
+    "description",
+    "bias",
+    "record-drift",
+    "record-offset",
+]
+"""Innermost first: what acts on the input, then on the response, then what is added to it, nuisances last."""
+
+
+def test_the_chain_of_the_shipped_effects():
+    shipped = [n for n in registry.names("effects") if registry.load("effects", n).distribution == "hysteresis-bench"]
+    inside = [n for n, models in registry.offered().items() if "bouc-wen" in models]
+    assert sorted({*shipped, *inside}, key=lambda name: place(name, registry.effect(name))) == CHAIN

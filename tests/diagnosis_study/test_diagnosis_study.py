@@ -1,0 +1,181 @@
+"""A study of diagnosis: what is right, what is counted, and a small run from the command line."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from hysteresis_bench.cli import main
+from hysteresis_bench.diagnosis_study.case import Case, compared
+from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.results import FOLDER, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
+
+STUDIES = Path(__file__).parents[2] / "studies"
+
+TEXT = """
+kind = "diagnosis"
+title = "Small"
+seed = 1
+
+[[bench]]
+name = "clean"
+rig = "hidden-effects"
+settings = { model = "bouc-wen", noise = 0.01 }
+vary = "draw"
+model = "bouc-wen"
+fitted = ["slow", "fast"]
+held_out = ["mixed"]
+fresh = ["stairs"]
+"""
+
+
+def test_every_hidden_effect_must_be_named_or_tied():
+    assert compared(["creep", "drift"], ["drift", "creep"], {}) == (["creep", "drift"], [], [], [])
+    assert compared(["transport-delay"], ["input-lag"], {"input-lag": {"transport-delay"}}) == (
+        [],
+        ["transport-delay"],
+        [],
+        [],
+    )
+    assert compared(["creep"], ["drift"], {"drift": set()}) == ([], [], ["creep"], ["drift"])
+    assert compared([], ["drift"], {}) == ([], [], [], ["drift"])
+    assert compared(["eddy-current|input-lag"], ["input-lag"], {}) == (["eddy-current|input-lag"], [], [], [])
+
+
+def test_one_claim_stands_for_one_hidden_effect():
+    rivals = {"input-lag": {"transport-delay", "output-lag"}}
+    named, tied, missed, extra = compared(["transport-delay", "output-lag"], ["input-lag"], rivals)
+    assert (named, tied, missed, extra) == ([], ["transport-delay"], ["output-lag"], [])
+
+
+def test_a_claim_that_names_one_effect_does_not_stand_for_another():
+    named, tied, missed, _ = compared(
+        ["transport-delay", "input-lag"], ["input-lag"], {"input-lag": {"transport-delay"}}
+    )
+    assert (named, tied, missed) == (["input-lag"], [], ["transport-delay"])
+
+
+def test_the_confusion_matrix_counts_cases():
+    cases = [
+        Case("a", "m", 0, "done", hidden="creep", claimed="creep", named="creep"),
+        Case("a", "m", 1, "done", hidden="creep", claimed="drift", missed="creep", extra="drift"),
+        Case("a", "m", 2, "done", hidden="creep", missed="creep"),
+        Case("b", "m", 0, "done"),
+        Case("b", "m", 1, "done", claimed="drift", extra="drift"),
+        Case("b", "m", 2, "timed-out"),
+    ]
+    table = confusion(cases)
+    assert table.at["creep", "creep"] == table.at["creep", "drift"] == table.at["creep", NOTHING] == 1
+    assert table.at[NOTHING, NOTHING] == table.at[NOTHING, "drift"] == 1
+    assert table.to_numpy().sum() == 5
+    assert [case.right for case in cases] == [True, False, False, True, False, False]
+
+
+def faults_of(folder, text):
+    file = folder / "s.toml"
+    file.write_text(text)
+    with pytest.raises(UserError) as error:
+        read_diagnosis_study(file)
+    return error.value.faults
+
+
+def test_faults_of_a_study_are_told_at_once(tmp_path):
+    text = TEXT.replace('"fast"', '"fastt"').replace('model = "bouc-wen"\nfitted', 'model = "bouc"\nfitted')
+    text = text.replace("seed = 1", 'sed = 1\ntimeout = "soon"')
+    text += '\nhidden = ["creeep|drift"]\n[[bench]]\nname = "clean"\nrig = "smaa"\n'
+    faults = " ".join(faults_of(tmp_path, text))
+    for part in (
+        'no key "sed". Known: bench, kind, notes, seed, timeout, title, trials. Did you mean "seed"?',
+        "seed: field required",
+        "'soon' is not a time",
+        '[[bench]] 1: no model "bouc"',
+        'Did you mean "bouc-wen"',
+        '[[bench]] 1: fitted: rig hidden-effects has no experiment "fastt"',
+        'Did you mean "fast"',
+        '[[bench]] 1: hidden: no effect "creeep"',
+        'Did you mean "creep"',
+        '[[bench]] 2: no rig "smaa"',
+        "[[bench]] 2 model: field required",
+        'two [[bench]] are both called "clean"; give one another name.',
+    ):
+        assert part in faults, part
+
+
+@pytest.mark.parametrize(
+    ("change", "sentence"),
+    [
+        (('vary = "draw"', 'vary = "drw"'), '[[bench]] 1: hidden-effects has no setting "drw"'),
+        (("fresh = ", "fresj = "), '[[bench]] 1: no key "fresj"'),
+        (('kind = "diagnosis"', 'kind = "diagnosi"'), "kind: input should be 'diagnosis'"),
+        (('fresh = ["stairs"]', 'hidden = "of the rg"'), "[[bench]] 1 hidden: input should be a valid list"),
+        (('settings = { model = "bouc-wen", noise = 0.01 }', "settings = 3"), "[[bench]] 1 settings: input should be"),
+    ],
+)
+def test_a_single_typo_is_one_sentence(tmp_path, change, sentence):
+    (fault,) = faults_of(tmp_path, TEXT.replace(*change))
+    assert fault.startswith(sentence)
+
+
+def test_a_wrong_kind_is_no_ordinary_study(tmp_path):
+    (tmp_path / "s.toml").write_text(TEXT.replace('kind = "diagnosis"', 'kind = "diagnosi"'))
+    assert is_diagnosis_study(tmp_path / "s.toml")
+
+
+def test_the_study_that_ships_is_one_of_diagnosis():
+    path = STUDIES / "closing_the_loop.toml"
+    assert is_diagnosis_study(path)
+    assert len(read_diagnosis_study(path)[0].bench) > 10
+    assert not is_diagnosis_study(STUDIES / "sma.toml")
+
+
+def test_the_page_tells_shares_and_what_went_wrong(tmp_path):
+    (tmp_path / STUDY).write_text(TEXT)
+    (tmp_path / FOLDER).mkdir()
+    cases = [
+        Case("clean", "bouc-wen", number, "done", before=1.0, after=1.0, fresh=1.0 + number, unfitted=1.0, seconds=1.0)
+        for number in range(3)
+    ]
+    cases.append(Case("clean", "bouc-wen", 3, "done", claimed="drift", extra="drift", before=1.0, after=1.0))
+    cases.append(Case("clean", "bouc-wen", 4, "crashed", "exit code 9 <b>"))
+    for case in cases:
+        (tmp_path / FOLDER / f"clean.{case.number}.json").write_text(json.dumps(asdict(case)))
+    page = write_diagnosis_study_page(tmp_path).read_text()
+    assert "something was claimed in 1 of 4 (25\u202f%" in answer(tmp_path)[0]
+    assert "1 of 3 (33\u202f%" in answer(tmp_path)[0]
+    assert "exit code 9 &lt;b&gt;" in page
+    assert "Cases that went wrong" in page
+
+
+def test_run_a_study_of_diagnosis_and_continue_it(tmp_path):
+    file, out = tmp_path / "small.toml", tmp_path / "results"
+    file.write_text(TEXT)
+    arguments = ["run", str(file), "--trials", "1", "--jobs", "1", "--out", str(out)]
+    first = CliRunner().invoke(main, arguments)
+    assert first.exit_code == 0, first.output
+    assert (out / "report.html").is_file()
+    (case,) = read_cases(out)
+    assert case.status == "done"
+    assert case.hidden == ""
+    assert case.fresh == pytest.approx(1.0, abs=0.2)
+    before = (out / FOLDER / "clean.0.json").stat().st_mtime_ns
+    assert CliRunner().invoke(main, arguments).exit_code == 0
+    assert (out / FOLDER / "clean.0.json").stat().st_mtime_ns == before
+    file.write_text(TEXT.replace("seed = 1", "seed = 2"))
+    assert CliRunner().invoke(main, arguments).exit_code != 0
+
+
+def test_the_command_writes_the_page_of_a_diagnosis_study_again(tmp_path):
+    (tmp_path / STUDY).write_text(TEXT)
+    (tmp_path / FOLDER).mkdir()
+    case = Case("clean", "bouc-wen", 0, "done", before=1.0, after=1.0, fresh=1.0, unfitted=1.0, seconds=1.0)
+    (tmp_path / FOLDER / "clean.0.json").write_text(json.dumps(asdict(case)))
+    ran = CliRunner().invoke(main, ["report", str(tmp_path)])
+    assert ran.exit_code == 0, ran.output
+    assert "something was claimed in 0 of 1" in (tmp_path / "report.html").read_text()

@@ -1,0 +1,106 @@
+"""The documentation builds without a warning, needs no network to be read, and says what the kept results say."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+from docs import docstrings, kept
+from hysteresis_bench import registry
+from hysteresis_bench.cli import main
+from tests.conftest import ROOT
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory) -> Path:
+    pytest.importorskip("mkdocs")
+    folder = tmp_path_factory.mktemp("site")
+    command = [sys.executable, "-m", "mkdocs", "build", "--strict", "--quiet", "--config-file", "docs/mkdocs.yml"]
+    done = subprocess.run([*command, "--site-dir", folder], cwd=ROOT, capture_output=True, text=True, timeout=300)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return folder
+
+
+def test_nothing_is_fetched_when_a_page_is_read(site):
+    fetched = re.compile(r"""(?:src=["']?|<link[^>]+href=["']?|url\(["']?)(?:https?:)?//""")
+    for page in [*site.rglob("*.html"), *site.rglob("*.css")]:
+        assert not fetched.search(page.read_text(encoding="utf-8")), page.name
+
+
+@pytest.mark.parametrize("kind", ["models", "effects", "optimizers", "rigs"])
+def test_every_plugin_has_its_section(site, kind):
+    page = (site / f"{kind}.html").read_text(encoding="utf-8")
+    ours = [name for name in registry.names(kind) if registry.load(kind, name).distribution == "hysteresis-bench"]
+    assert ours
+    for name in [*ours, *(registry.offered() if kind == "effects" else [])]:
+        assert f'id="{name}"' in page
+
+
+def test_every_command_has_its_section(site):
+    page = (site / "commands.html").read_text(encoding="utf-8")
+    for name in main.commands:
+        assert f'id="{name}"' in page
+
+
+def test_no_number_is_left_out(site):
+    for page in site.glob("*.html"):
+        assert "{{" not in page.read_text(encoding="utf-8"), page.name
+
+
+def test_a_docstring_becomes_a_list_of_names_and_sources():
+    text = "What it is.\n\na : first\n  of two;  b, c : both\nRaises ValueError.\n\n[1] Someone, 2 * x < 3."
+    said = docstrings.markdown(text).splitlines()
+    assert [line for line in said if line] == [
+        "What it is.",
+        "- `a` : first",
+        "  of two",
+        "- `b, c` : both",
+        "Raises ValueError.",
+        r"- [1] Someone, 2 \* x &lt; 3.",
+    ]
+
+
+def test_the_readme_says_what_the_kept_diagnoses_say():
+    said = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
+    assert f"{kept.known_cases()} cases made by the three models" in said
+    assert f"else, in {kept.named(True)}; something claimed on clean data in {kept.claimed_on_clean(True)};" in said
+    assert f"{kept.PREDICTED} times the noise in {kept.predicted()}." in said
+
+
+def test_what_the_pages_conclude_from_the_kept_results_holds():
+    """Sentences around the numbers: if a study is run again and one of these fails, the page must say otherwise."""
+    linear, logarithmic = ("paper box, linear", "paper box, logarithmic")
+    assert int(kept.always("sma", logarithmic).split()[0]) > int(kept.always("sma", linear).split()[0])
+    for study, problem in (("pea", "static"), ("gma", "the five that can be known")):
+        assert kept.summary(study, problem)["expected_running_time"].idxmin() == "scipy-least-squares"
+    ours, all_of_them = map(int, kept.named(False).split(" of "))
+    assert ours < all_of_them / 2
+    steel = [kept.measurement("electrical steel", f"held_out_{when}") for when in ("before", "after")]
+    assert steel[1] > steel[0]
+    assert "input-lag or transport-delay" in kept.measurement("piezo", "ties")
+    assert "input-lag" in kept.closing("gma")["advice"]
+
+
+def test_the_citation_names_the_version():
+    cited = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    assert {"cff-version", "message", "title", "authors", "version", "date-released", "license"} <= set(cited)
+    project = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    assert f'version = "{cited["version"]}"' in project
+    assert f"## [{cited['version']}] - {cited['date-released']}" in (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+
+
+def test_the_rooms_that_contributing_names_are_there():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    named = re.findall(r"`((?:hysteresis_bench|plugins|tests|studies|results)/[\w/.]*)`", text)
+    assert len(named) > 20
+    assert not [name for name in named if not (ROOT / name).exists()]
+
+
+def test_every_room_is_named_in_contributing():
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    package = ROOT / "hysteresis_bench"
+    rooms = [path.parent for path in (*package.glob("*/__init__.py"), *package.glob("diagnosis/*/__init__.py"))]
+    assert not [room.name for room in rooms if f"{room.relative_to(ROOT).as_posix()}/" not in text]

@@ -1,0 +1,65 @@
+"""The page of a fit: how good it is, in words, numbers and figures."""
+
+import re
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench.report.fit.page import write_fit_page
+from tests.report.links import parsed
+
+FIT = {
+    "title": "A <fit>",
+    "model": "jiles-atherton",
+    "effects": ["bias"],
+    "units": {"time": "s", "input": "A/m", "output": "T"},
+    "parameters": [
+        {"name": "a", "value": 31.2, "standard_error": 0.4, "unit": "A/m", "at_bound": False},
+        {"name": "k", "value": 9.1, "standard_error": None, "unit": "A/m", "at_bound": True},
+    ],
+    "records": [
+        {"record": "one/1", "role": "fitted", "rmse": 0.003, "relative_rms": 0.004, "max_error": 0.06},
+        {"record": "two", "role": "held-out", "rmse": 0.03, "relative_rms": 0.2, "max_error": 0.3},
+    ],
+    "notes": ["a note"],
+    "warnings": ["a warning"],
+    "provenance": {"seed": 1, "versions": {"numpy": "2"}},
+    "agreement": "Two searches agree.",
+}
+
+
+def fit_responses():
+    time = np.arange(50.0)
+    drive = np.sin(time)
+    return pd.concat(
+        pd.DataFrame(
+            {"record": record, "role": role, "time": time, "input": drive, "output": drive, "simulated": 0.9 * drive}
+        )
+        for record, role in (("one/1", "fitted"), ("two", "held-out"))
+    )
+
+
+def test_the_page_of_a_fit_says_how_good_it_is(tmp_path):
+    page = write_fit_page(tmp_path, FIT, fit_responses())
+    html = page.read_text(encoding="utf-8")
+    text = re.sub(r"<[^>]+>", " ", html)
+    for wanted in (
+        "very good",
+        "poor",
+        "Two searches agree.",
+        "a warning",
+        "a note",
+        "31.2",
+        "A/m",
+    ):
+        assert wanted in text
+    assert "A &lt;fit&gt;" in html
+    assert html.count("<figure>") == 4
+    links = parsed(html)
+    assert all((tmp_path / source).is_file() for source in links.sources if not source.startswith("#"))
+
+
+def test_a_fit_without_held_out_records_says_so(tmp_path):
+    fit = {**FIT, "records": FIT["records"][:1]}
+    html = write_fit_page(tmp_path, fit, fit_responses()).read_text(encoding="utf-8")
+    assert "No record was held out" in html

@@ -1,0 +1,81 @@
+"""Results folders that a full disk, a kill or a careless hand has damaged: read as far as they go, or a sentence."""
+
+from pathlib import Path
+
+import pytest
+
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.report.study import FROM_TABLES, write_report
+from hysteresis_bench.study.results import (
+    IDENTIFIABILITY,
+    PROVENANCE,
+    PUBLISHED,
+    REPORT,
+    RESPONSES,
+    STUDY,
+    TRIALS,
+    read_results,
+)
+from hysteresis_bench.study.store import FILE
+from tests.synthetic_study import write_results
+
+HOW = {
+    "cut": lambda path: path.write_bytes(path.read_bytes()[: path.stat().st_size // 2]),
+    "flipped": lambda path: path.write_bytes(bytes(255 - byte for byte in path.read_bytes())),
+    "empty": lambda path: path.write_bytes(b""),
+    "junk": lambda path: path.write_bytes(b"\x00\xff[{]}" * 50),
+    "gone": lambda path: path.unlink(),
+    "text": lambda path: path.write_text("[1, 2]\n", encoding="utf-8"),
+}
+FILES = (STUDY, PUBLISHED, PROVENANCE, TRIALS, RESPONSES, IDENTIFIABILITY, FILE)
+
+
+@pytest.fixture
+def folder(tmp_path) -> Path:
+    return write_results(tmp_path / "results", trials=2)
+
+
+@pytest.mark.parametrize("how", sorted(HOW))
+@pytest.mark.parametrize("file", FILES)
+def test_any_damage_is_left_out_or_told(folder, file, how):
+    HOW[how](folder / file)
+    if file == STUDY:
+        with pytest.raises(UserError):
+            read_results(folder)
+        return
+    results = read_results(folder)
+    assert len(results.trials) == 32
+    if file not in (TRIALS, FILE) and how != "gone":
+        assert any(file in said for said in results.damages) or (file, how) == (PUBLISHED, "empty")
+    if file == FILE:
+        assert any(FILE in said for said in results.damages)
+        assert not results.traces
+
+
+def test_without_the_store_and_the_table_there_are_no_trials(folder):
+    HOW["cut"](folder / FILE)
+    HOW["junk"](folder / TRIALS)
+    with pytest.raises(UserError, match="neither"):
+        read_results(folder)
+
+
+def test_reading_changes_nothing(folder):
+    (folder / FILE).unlink()
+    before = {path.name: path.read_bytes() for path in folder.iterdir()}
+    read_results(folder)
+    assert {path.name: path.read_bytes() for path in folder.iterdir()} == before
+
+
+def test_a_kept_folder_without_its_store_is_reported_beside_its_page(folder):
+    (folder / FILE).unlink()
+    (folder / REPORT).write_text("kept", encoding="utf-8")
+    page = write_report(folder)
+    assert page.name == FROM_TABLES
+    assert (folder / REPORT).read_text(encoding="utf-8") == "kept"
+    assert "The course of the searches is not kept here" in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("file", [RESPONSES, IDENTIFIABILITY, PROVENANCE])
+def test_a_page_is_written_without_what_is_damaged(folder, file):
+    HOW["junk"](folder / file)
+    assert f"{file} is damaged" in write_report(folder).read_text(encoding="utf-8")

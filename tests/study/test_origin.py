@@ -1,0 +1,55 @@
+"""Trials say what they were made with, and a store of before still opens."""
+
+import json
+import sqlite3
+from dataclasses import replace
+
+from hysteresis_bench import registry
+from hysteresis_bench.study.origin import mixed, origin
+from hysteresis_bench.study.store import FILE, Outcome, Store
+
+OUTCOME = Outcome("p", "pso", 0, "0", "done", "", 10, 0.5)
+
+
+def test_an_origin_names_processor_versions_and_other_distributions():
+    plugins = [registry.load("models", "polynomial"), registry.load("optimizers", "pso")]
+    made_by = json.loads(origin(plugins))
+    assert {"processor", "python", "numpy", "hysteresis-bench"} <= set(made_by)
+    assert made_by["hysteresis-test-plugins"] == "0.1"
+
+
+def test_what_differs_between_trials_is_told_and_nothing_else():
+    one, other = ({"numpy": version, "scipy": "1.14"} for version in ("2.0", "2.1"))
+    guest = {**one, "guest": "3"}
+    origins = {json.dumps(made_by): trials for made_by, trials in ((one, 4), (other, 2), (guest, 1))}
+    assert mixed(origins) == ("Trials were not all made with the same numpy: 5 with 2.0, 2 with 2.1.",)
+    assert mixed({json.dumps(one): 4}) == ()
+
+
+def test_the_store_keeps_origins_and_gives_back_what_it_was_given(tmp_path):
+    with Store(tmp_path) as store:
+        store.begin("t")
+        store.add(replace(OUTCOME, origin='{"numpy": "2.0"}'))
+        store.add(replace(OUTCOME, trial=1, status="killed"))
+        assert store.origins() == {'{"numpy": "2.0"}': 1}
+        assert next(store.outcomes()) == replace(OUTCOME, origin='{"numpy": "2.0"}')
+        assert store.forget(["killed", "not-started"]) == 1
+        assert store.keys() == {("p", "pso", 0)}
+
+
+def test_a_store_of_before_is_read_and_continued(tmp_path):
+    with Store(tmp_path) as store:
+        store.begin("t")
+        store.add(OUTCOME)
+    connection = sqlite3.connect(tmp_path / FILE)
+    with connection:
+        connection.execute("ALTER TABLE trials DROP COLUMN origin")
+    connection.close()
+    with Store(tmp_path) as store:
+        assert store.origins() == {}
+        assert list(store.outcomes()) == [OUTCOME]
+        assert len(store.table()) == 1
+        store.begin("t")
+        store.add(replace(OUTCOME, trial=1, origin='{"numpy": "2.0"}'))
+        assert len(store.table()) == 2
+        assert store.origins() == {'{"numpy": "2.0"}': 1}
