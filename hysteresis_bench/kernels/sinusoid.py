@@ -49,11 +49,3 @@ def add_sinusoid(y: Array, time: Array, cosine: Array, sine: Array, frequency: A
                 for j in range(swarm):
                     forward[j] = math.cos(2.0 * math.pi * frequency[j] * step)
                     aside[j] = math.sin(2.0 * math.pi * frequency[j] * step)
-
-
-@njit(cache=True, error_model="numpy")
-def sinusoid(time: Array, cosine: Array, sine: Array, frequency: Array) -> Array:
-    """The sinusoids alone, float64[samples, swarm]; arguments as in `add_sinusoid`."""
-    y = np.zeros((time.size, frequency.size))
-    add_sinusoid(y, time, cosine, sine, frequency)
-    return y

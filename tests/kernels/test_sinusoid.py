@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hysteresis_bench.kernels.sinusoid import sinusoid
+from hysteresis_bench.kernels.sinusoid import add_sinusoid
 
 COSINE, SINE = np.array([1.0, 0.0, -0.4, 0.0]), np.array([0.0, 1.0, 2.5, 0.0])
 FREQUENCY = np.array([0.3, 49.7, 499.0, 50.0])
@@ -17,6 +17,12 @@ def test_it_agrees_with_cosine_and_sine(begin, uneven):
     phase = 2 * np.pi * FREQUENCY * time[:, None]
     expected = COSINE * np.cos(phase) + SINE * np.sin(phase)
     np.testing.assert_allclose(sinusoid(time, COSINE, SINE, FREQUENCY), expected, rtol=0, atol=1e-6)
+
+
+def sinusoid(time, cosine, sine, frequency):
+    alone = np.zeros((time.size, frequency.size))
+    add_sinusoid(alone, time, cosine, sine, frequency)
+    return alone
 
 
 def test_a_change_of_the_step_is_followed():

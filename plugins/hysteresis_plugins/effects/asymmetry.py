@@ -49,11 +49,11 @@ class Asymmetry(Effect):
     parameters = (Parameter("curvature", -0.45, 0.45, "1/{input}", null=0.0, meaning="of the input's action"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.asymmetry import bend
+
         if not np.any(p.curvature):  # the model sees the very input, still shared by the swarm
             return inner(signal)
-        bent = p.curvature * signal.input**2
-        bent += signal.input
-        return inner(signal.with_input(bent))
+        return inner(signal.with_input(bend(signal.input, p.curvature)))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Up to nine tenths of where the largest input would turn back."""

@@ -10,6 +10,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import longest, output_span, without_time
 
 
@@ -39,8 +40,13 @@ class Drift(Effect):
     parameters = (Parameter("rate", -1.0, 1.0, "{output}/{time}", null=0.0, meaning="of the output's zero"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        output = inner(signal)
-        return output + p.rate * (signal.time - signal.time[0])[:, None] if signal.timed else output
+        from hysteresis_bench.kernels.effects.curve_in_time import add
+
+        if not signal.timed:
+            return inner(signal)
+        output = own(inner(signal), signal)
+        add(output, signal.time - signal.time[0], p.rate)
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Up to the range of the output in the longest record: more would have shown in that range."""

@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._hidden import path
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import input_span, motionless
 
 SHORTEST = 4.0
@@ -53,8 +54,11 @@ class Fatigue(Effect):
     parameters = (Parameter("rate", 0.0, 1.0, "1/{input}", null=0.0, meaning="loss of amplitude a path"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        tired: Array = inner(signal) * np.exp(-p.rate * _path(signal.input))
-        return tired
+        from hysteresis_bench.kernels.effects.fatigue import fade
+
+        output = own(inner(signal), signal)
+        fade(output, signal.input, p.rate)
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Up to a fall by a factor e³ in the record with the longest path."""

@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import (
     dominant_frequency,
     duration,
@@ -73,12 +74,13 @@ class PeriodicDisturbance(Effect):
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        from hysteresis_bench.kernels.sinusoid import sinusoid
+        from hysteresis_bench.kernels.sinusoid import add_sinusoid
 
-        output = inner(signal)
         if not signal.timed:
-            return output
-        return output + sinusoid(signal.time, p.cosine, p.sine, p.frequency)
+            return inner(signal)
+        output = own(inner(signal), signal)
+        add_sinusoid(output, signal.time, p.cosine, p.sine, p.frequency)
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Amplitudes up to half the range of the output; frequencies from three periods in the longest record

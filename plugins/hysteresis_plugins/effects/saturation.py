@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import output_span
 
 
@@ -48,13 +49,11 @@ class Saturation(Effect):
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        output = inner(signal)
-        with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
-            excess = np.abs(p.inverse_level * output)
-            # the powers of the smaller of excess and 1 / excess, so that none overflows
-            folded = np.exp(-np.log1p(np.minimum(excess, 1.0 / excess) ** p.sharpness) / p.sharpness)
-            bent: Array = np.where(excess <= 1.0, output * folded, np.sign(output) * folded / p.inverse_level)
-        return bent
+        from hysteresis_bench.kernels.effects.saturation import saturate
+
+        output = own(inner(signal), signal)
+        saturate(output, p.inverse_level, p.sharpness)
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Levels from 0.45 times the output's range, less than which a symmetric output would not pass."""

@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import output_span
 
 
@@ -50,9 +51,11 @@ class TemperatureSensitivity(Effect):
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         if "temperature" not in signal.columns:
             raise ValueError("temperature-sensitivity needs a column temperature; these data have none")
-        above = (signal.columns["temperature"] - self.reference)[:, None]
-        changed: Array = inner(signal) * (1.0 + p.gain * above) + p.expansion * above
-        return changed
+        from hysteresis_bench.kernels.effects.curve_in_time import scale_and_add
+
+        output = own(inner(signal), signal)
+        scale_and_add(output, signal.columns["temperature"] - self.reference, p.gain, p.expansion)
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """A gain that stays above a tenth at every temperature; a zero that moves by up to the output's range."""
