@@ -85,7 +85,7 @@ def read_results(folder: Path) -> Results:
     """What can be read of a results folder; what cannot is named in `damages`.
 
     Where trials.sqlite is not kept, the trials come from trials.csv, without their traces.
-    Raises UserError where the folder holds no study, or neither of the two can be read.
+    Raises UserError where the folder holds no study.
     """
     if not (folder / STUDY).is_file():
         raise UserError(str(folder), f"holds no results: there is no {STUDY} in it.")
@@ -121,11 +121,8 @@ def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int],
             reader.said(FILE, error)
     trials = reader.csv(TRIALS, COLUMNS)
     if trials.empty:
-        raise UserError(
-            str(reader.folder),
-            [*reader.damages, f"holds no trials: neither {FILE} nor {TRIALS} has any. Run the study again."],
-        )
+        return pd.DataFrame(columns=list(COLUMNS)), {}
     reader.damages.append(
         f"The course of the searches is not kept here ({FILE}): trials are told from {TRIALS}, without convergence."
     )
-    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}, {}
+    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}

@@ -56,7 +56,7 @@ def test_without_the_store_and_the_table_there_are_no_trials(folder):
     HOW["cut"](folder / FILE)
     HOW["junk"](folder / TRIALS)
     with pytest.raises(UserError, match="neither"):
-        read_results(folder)
+        write_report(folder)
 
 
 def test_reading_changes_nothing(folder):

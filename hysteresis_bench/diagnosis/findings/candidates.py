@@ -20,7 +20,7 @@ class Candidate:
     """An effect that was considered, on top of the final system; an adopted one, against the system without it.
 
     p : of the nested-model test, not corrected;  advantage : standard errors by which it won on blocks left out
-    share : of the mean square left over the noise without it, what it explains
+    share : of the mean square left over the noise without it, what it explains; NaN where nothing is left
     cv_rmse : NaN where it is not applicable, for the `reason`;  parameters : its own, in units
     """
 
@@ -76,6 +76,7 @@ def _candidate(found: Found, name: str, ties: Sequence[Tie]) -> Candidate | None
     if larger is None:
         return None
     test, gain = found.selection.compared(smaller, larger)
+    share = found.selection.share(smaller, larger) if found.selection.excess(smaller) > 0.0 else float("nan")
     prefix = f"{name}."
     return Candidate(
         name,
@@ -85,7 +86,7 @@ def _candidate(found: Found, name: str, ties: Sequence[Tie]) -> Candidate | None
         cv_rmse=larger.cv_rmse,
         p=test.p,
         advantage=gain,
-        share=float(np.clip(found.selection.share(smaller, larger), 0.0, 1.0)),
+        share=float(np.clip(share, 0.0, 1.0)),
         parameters={key.removeprefix(prefix): v for key, v in larger.values.items() if key.startswith(prefix)},
         at_bound=tuple(key for key in larger.at_bound if key.startswith(prefix)),
         tied_with=tuple(

@@ -133,9 +133,13 @@ class Selection:
             and self.fitter.test(smaller, larger).p * candidates < LEVEL
         )
 
+    def excess(self, hypothesis: Hypothesis) -> float:
+        """The mean square that a system leaves over the noise; below 0 where it leaves less."""
+        return hypothesis.rmse**2 - self.floor**2
+
     def share(self, smaller: Hypothesis, larger: Hypothesis) -> float:
         """Of the mean square that the smaller system leaves over the noise, what the larger one explains."""
-        excess = smaller.rmse**2 - self.floor**2
+        excess = self.excess(smaller)
         return (smaller.rmse**2 - larger.rmse**2) / excess if excess > 0.0 else 1.0
 
     def tied(self, one: Hypothesis, other: Hypothesis) -> bool:

@@ -7,9 +7,11 @@ from pathlib import Path
 import pandas as pd
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.trials.summary import other_budgets, summarise
 from hysteresis_bench.study.afterwards.closing_files import CLOSING
-from hysteresis_bench.study.results import REPORT, SUMMARY, read_results
+from hysteresis_bench.study.results import REPORT, SUMMARY, TRIALS, read_results
+from hysteresis_bench.study.store import FILE
 
 __all__ = ["summarise", "write_report"]
 
@@ -29,6 +31,9 @@ def write_report(folder: Path) -> Path:
     from hysteresis_bench.report.study.page import study_page
 
     results = read_results(folder)
+    if results.trials.empty:
+        none = f"holds no trials: neither {FILE} nor {TRIALS} has any. Run the study again."
+        raise UserError(str(folder), [*results.damages, none])
     richer = not results.traces and (folder / REPORT).is_file()
     closing = results.closing
     if closing and closing.finished and not closing.responses.empty and not richer:
