@@ -15,6 +15,7 @@ from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.list import list_plugins
 from hysteresis_bench.commands.measure import measure
+from hysteresis_bench.commands.merge import merge
 from hysteresis_bench.commands.new_plugin import new_plugin
 from hysteresis_bench.commands.predict import predict
 from hysteresis_bench.commands.report import report
@@ -50,5 +51,5 @@ def main() -> None:
     and find what the model lacks."""
 
 
-for command in (check_plugin, control, diagnose, fit, list_plugins, measure, new_plugin, predict, report, run):
+for command in (check_plugin, control, diagnose, fit, list_plugins, measure, merge, new_plugin, predict, report, run):
     main.add_command(command)

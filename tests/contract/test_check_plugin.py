@@ -9,7 +9,7 @@ from click.testing import CliRunner
 
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
-from hysteresis_bench.diagnosis.search import systems
+from hysteresis_bench.diagnosis.hypotheses import systems
 from hysteresis_bench.testing.check import BROKEN, CONTRACTS, KEPT, Question, answer, check
 from hysteresis_bench.testing.contract import promises
 
