@@ -75,7 +75,8 @@ class Store:
     def __init__(self, folder: Path) -> None:
         self._connection = sqlite3.connect(folder / FILE)
         self._connection.execute("PRAGMA journal_mode = WAL")
-        self._connection.execute("PRAGMA synchronous = FULL")
+        # a kill loses nothing; a power cut may take the last trials, which are run again
+        self._connection.execute("PRAGMA synchronous = NORMAL")
         self._connection.executescript(
             """
             CREATE TABLE IF NOT EXISTS study (title TEXT NOT NULL);
@@ -109,7 +110,7 @@ class Store:
             self._connection.execute("INSERT INTO study VALUES (?)", (title,))
 
     def add(self, outcome: Outcome) -> None:
-        """Write one trial; on disk when this returns. Raises sqlite3.IntegrityError if it is there already."""
+        """Write one trial; no kill can take it back when this returns. Raises sqlite3.IntegrityError if it is there already."""
         self.extend([outcome])
 
     def extend(self, outcomes: Iterable[Outcome]) -> None:
