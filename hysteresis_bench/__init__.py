@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.signals import Dataset
     from hysteresis_bench.study.results import Results
     from hysteresis_bench.study.run import Progress
+    from hysteresis_bench.study.run import RunOptions as RunOptions
 
 __all__ = ["control", "diagnose", "fit", "load", "measure", "predict", "run_study"]
 
@@ -28,7 +29,7 @@ for _package in ("control", "fit"):
     import_module(f"{__name__}.{_package}")
 
 
-_OPTIONS = {"FitOptions": "fit.fitting", "DiagnosisOptions": "diagnosis.question"}
+_OPTIONS = {"FitOptions": "fit.fitting", "DiagnosisOptions": "diagnosis.question", "RunOptions": "study.run"}
 
 if not TYPE_CHECKING:
 
@@ -183,16 +184,18 @@ def run_study(
     trials: int | None = None,
     jobs: int | None = None,
     out: Path | str | None = None,
+    options: RunOptions | None = None,
     on_progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Results:
     """Run or continue a study, and the diagnosis at its end where it asks for one; then read its results.
 
     path : a study file (TOML);  trials : overrides the file's number;  jobs : worker processes, all cores by default
-    out : the results folder; default: runs/NAME
+    out : the results folder; default: runs/NAME;  options : such as RunOptions(retry=True)
     on_progress : called after every trial, and once before the first
     Raises UserError telling every fault of the file, of the data, or of the folder.
     """
     from hysteresis_bench.study.results import read_results
     from hysteresis_bench.study_diagnosis import run_with_diagnosis
 
-    return read_results(run_with_diagnosis(path, trials=trials, jobs=jobs, out=out, on_progress=on_progress))
+    folder = run_with_diagnosis(path, trials=trials, jobs=jobs, out=out, options=options, on_progress=on_progress)
+    return read_results(folder)

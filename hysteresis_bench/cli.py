@@ -13,6 +13,7 @@ from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.measure import measure
+from hysteresis_bench.commands.merge import merge
 from hysteresis_bench.commands.plugins.check_plugin import check_plugin
 from hysteresis_bench.commands.plugins.list import list_plugins
 from hysteresis_bench.commands.plugins.new_plugin import new_plugin
@@ -50,5 +51,5 @@ def main() -> None:
     and find what the model lacks."""
 
 
-for command in (check_plugin, control, diagnose, fit, list_plugins, measure, new_plugin, predict, report, run):
+for command in (check_plugin, control, diagnose, fit, list_plugins, measure, merge, new_plugin, predict, report, run):
     main.add_command(command)

@@ -23,7 +23,7 @@ from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.problems import closing_dataset
 from hysteresis_bench.study.reader import Reader
-from hysteresis_bench.study.run import Progress, run_study
+from hysteresis_bench.study.run import Progress, RunOptions, run_study
 from hysteresis_bench.study.study_file import Study, read_study
 
 LIMIT = 1800.0
@@ -56,15 +56,16 @@ def run_with_diagnosis(
     trials: int | None = None,
     jobs: int | None = None,
     out: Path | str | None = None,
+    options: RunOptions | None = None,
     on_progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Path:
     """Run or continue a study, and the diagnosis that its [closing] asks for; returns its results folder.
 
     Arguments and errors as of study.run.run_study.
     """
-    folder = run_study(path, trials=trials, jobs=jobs, out=out, on_progress=on_progress)
+    folder = run_study(path, trials=trials, jobs=jobs, out=out, options=options, on_progress=on_progress)
     study, _ = read_study(Path(path))
-    if study.closing:
+    if study.closing and not (options and options.shard):
         with alone(folder):
             write_closing(study, Path(path).parent, folder)
     return folder

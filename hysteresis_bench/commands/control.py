@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hysteresis_bench.commands.console import say_notes, say_path
 from hysteresis_bench.commands.outputs import check_folder, force_option
+from hysteresis_bench.commands.terminal.console import say_notes, say_path
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -8,8 +8,8 @@ from typing import TypeVar
 
 import click
 
-from hysteresis_bench.commands.console import plain_console, say_notes
 from hysteresis_bench.commands.outputs import check_folder, force_option
+from hysteresis_bench.commands.terminal.console import plain_console, say_notes
 from hysteresis_bench.errors import UserError
 
 Value = TypeVar("Value")

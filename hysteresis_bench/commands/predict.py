@@ -7,8 +7,8 @@ from pathlib import Path
 
 import click
 
-from hysteresis_bench.commands.console import plain_console, say_notes, say_path
 from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
 
 @click.command()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from hysteresis_bench.commands.console import plain_console, say_path
+from hysteresis_bench.commands.terminal.console import plain_console, say_path
 
 
 @click.command()

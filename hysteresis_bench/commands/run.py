@@ -4,13 +4,18 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from rich.console import Console
 
-from hysteresis_bench.commands.console import plain_console, say_path
 from hysteresis_bench.commands.outputs import check_results, force_option
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.console import plain_console, say_path
 from hysteresis_bench.errors import UserError
+
+if TYPE_CHECKING:
+    from hysteresis_bench.study.results import Results
 
 DONE, FAILED_TRIALS = 0, 1
 
@@ -20,41 +25,80 @@ DONE, FAILED_TRIALS = 0, 1
 @click.option("--trials", type=click.IntRange(min=1), help="Trials of every optimizer; default: the study file's.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Worker processes; default: all cores.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Results folder; default: runs/NAME.")
+@click.option("--retry", is_flag=True, help="Do again what was killed from outside, ran out of memory or never began.")
+@click.option("--scheduler", metavar="ADDRESS", help="Run the trials on the workers of this Dask scheduler.")
+@click.option("--shard", metavar="I/N", help="Run the I-th of N parts only; `merge` puts them together.")
 @force_option
-def run(study: Path, trials: int | None, jobs: int | None, out: Path | None, force: bool) -> None:
+def run(
+    study: Path,
+    trials: int | None,
+    jobs: int | None,
+    out: Path | None,
+    retry: bool,
+    scheduler: str | None,
+    shard: str | None,
+    force: bool,
+) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
-    from hysteresis_bench import run_study
-    from hysteresis_bench.commands.progress import progress_bar
+    from hysteresis_bench.commands.terminal.progress import progress_bar
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
     from hysteresis_bench.report.paper.published import check_published_beside
+    from hysteresis_bench.study.execution.shards import Shard
+    from hysteresis_bench.study.results import read_results
+    from hysteresis_bench.study.run import Progress, RunOptions, default_folder
+    from hysteresis_bench.study_diagnosis import run_with_diagnosis
+
+    console = plain_console()
+    part = Shard.read(shard) if shard else None
+    folder = out or default_folder(study, part)
+    check_results(folder, force)
+    if is_diagnosis_study(study):
+        if retry or scheduler or shard:
+            raise UserError(str(study), "is a study of diagnosis: it has no --retry, --scheduler or --shard.")
+        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
+    check_published_beside(study)
+    reached = [Progress(0, 0, None)]
+
+    def kept() -> str:
+        return f"{reached[-1].done} of {reached[-1].total} trials are kept in {folder}"
+
+    with told_when_stopped(study, kept), progress_bar(console) as on_progress:
+
+        def keep(progress: Progress) -> None:
+            reached[-1] = progress
+            on_progress(progress)
+
+        options = RunOptions(retry, scheduler, part)
+        run_with_diagnosis(study, trials=trials, jobs=jobs, out=folder, options=options, on_progress=keep)
+    if part:
+        say_path(console, f"{kept()}; for `merge`, part {part}", folder)
+        return
+    sys.exit(_report(read_results(folder), console))
+
+
+def _report(results: Results, console: Console) -> int:
+    """Write and print it; returns the exit code."""
     from hysteresis_bench.report.study import write_report
     from hysteresis_bench.report.study.closing_section import closing_in_words
     from hysteresis_bench.report.study.console import print_summary
+    from hysteresis_bench.study.execution.pool import MACHINE
     from hysteresis_bench.study.results import FINISHED
-    from hysteresis_bench.study.run import default_folder
 
-    console = plain_console()
-    check_results(out or default_folder(study), force)
-    if is_diagnosis_study(study):
-        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
-    check_published_beside(study)
-    try:
-        with progress_bar(console) as on_progress:
-            results = run_study(study, trials=trials, jobs=jobs, out=out, on_progress=on_progress)
-    except KeyboardInterrupt:
-        raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
     page = write_report(results.folder)
     print_summary(results, console)
     failed = results.trials[~results.trials["status"].isin(FINISHED)]
     for row in failed.itertuples():
-        console.print(
-            f"{row.problem} · {row.optimizer} · trial {row.trial}: {row.status}: {row.reason}", highlight=False
-        )
+        told = f"{row.problem} · {row.optimizer} · trial {row.trial}: {row.status}: {row.reason}"
+        console.print(told, highlight=False, markup=False)
+    for told in results.mixed:
+        console.print(told, highlight=False, markup=False)
+    if failed["status"].isin(MACHINE).any():
+        console.print("What the machine failed at is done again by `run --retry`.", highlight=False)
     if results.closing:
         console.print(closing_in_words(results.closing), highlight=False, markup=False)
     say_path(console, "report", page)
     unfinished = len(failed) or (results.closing and not results.closing.finished)
-    sys.exit(FAILED_TRIALS if unfinished else DONE)
+    return FAILED_TRIALS if unfinished else DONE
 
 
 def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console) -> int:
@@ -68,10 +112,8 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
             ended = case.reason or f"hidden {case.hidden or 'nothing'}: claimed {case.claimed or 'nothing'}"
             console.print(f"{progress.done}/{progress.total} {case.bench}, {case.number}: {ended}", highlight=False)
 
-    try:
+    with told_when_stopped(study, lambda: "every case that finished is kept"):
         results_folder = run_diagnosis_study(study, trials=trials, jobs=jobs, out=out, on_progress=on_progress)
-    except KeyboardInterrupt:
-        raise UserError(str(study), "stopped. Nothing that finished is lost: run it again to continue.") from None
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
     say_path(console, "report", write_diagnosis_study_page(results_folder))

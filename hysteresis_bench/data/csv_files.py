@@ -59,9 +59,11 @@ def read_table(path: Path) -> pd.DataFrame:
 
 
 def write_table(path: Path, table: pd.DataFrame, *, digits: int | None = None, index: bool = False) -> None:
-    """Write a table, its texts guarded; digits : significant ones of a number, all that it has by default."""
+    """Write a table beside and rename it, its texts guarded; digits : significant ones of a number, all by default."""
     safe = _with_texts(table.reset_index() if index else table, guarded)
-    safe.to_csv(path, index=False, float_format=None if digits is None else f"%.{digits}g")
+    beside = path.with_name(f"{path.name}.part")
+    safe.to_csv(beside, index=False, float_format=None if digits is None else f"%.{digits}g")
+    beside.replace(path)  # a stop in between leaves no half a table
 
 
 def _with_texts(table: pd.DataFrame, change: Callable[[str], str]) -> pd.DataFrame:

@@ -30,7 +30,7 @@ def describe(folder: Path, path: Path, *, study: Study, text: str, units: Mappin
     if (folder / STUDY).is_file():
         before, _ = read_study(folder / STUDY)
         old = json.loads((folder / PROVENANCE).read_text(encoding="utf-8"))
-        faults = _differences(before, study, old, provenance)
+        faults = differences(before, study, old, provenance)
         if faults:
             raise UserError(f"{folder} holds another study", [*faults, "Choose another folder with --out."])
         provenance["optimizers"] = {**old["optimizers"], **provenance["optimizers"]}
@@ -45,7 +45,8 @@ def describe(folder: Path, path: Path, *, study: Study, text: str, units: Mappin
     write_whole(folder / STUDY, text)  # last: it makes the folder one of this study
 
 
-def _differences(before: Study, now: Study, old: dict[str, Any], new: dict[str, Any]) -> list[str]:
+def differences(before: Study, now: Study, old: Mapping[str, Any], new: Mapping[str, Any]) -> list[str]:
+    """Why two studies are not the same one, a sentence each; old, new : their provenance"""
     was, is_now = before.identity(), now.identity()
     texts = ("title", "notes", "published")  # words about the study do not change its numbers
     faults = [

@@ -121,8 +121,8 @@ def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int],
             reader.said(FILE, error)
     trials = reader.csv(TRIALS, COLUMNS)
     if trials.empty:
-        return pd.DataFrame(columns=list(COLUMNS)), {}
+        return pd.DataFrame(columns=list(COLUMNS)), {}, {}
     reader.damages.append(
         f"The course of the searches is not kept here ({FILE}): trials are told from {TRIALS}, without convergence."
     )
-    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}
+    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}, {}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -14,7 +14,9 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.seeds import seed_of
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
-from hysteresis_bench.study.execution.pool import Pool, Work
+from hysteresis_bench.study.execution.cluster import Cluster
+from hysteresis_bench.study.execution.pool import MACHINE, Pool, Work
+from hysteresis_bench.study.execution.shards import Shard
 from hysteresis_bench.study.execution.trial import (
     Ticket,
     needs_own_process,
@@ -23,12 +25,26 @@ from hysteresis_bench.study.execution.trial import (
     seed_key,
     tickets_of,
 )
-from hysteresis_bench.study.lock import alone
+from hysteresis_bench.study.lock import alone, write_whole
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.provenance import describe
 from hysteresis_bench.study.results import IDENTIFIABILITY, RESPONSES, STAGES, TRIALS
 from hysteresis_bench.study.store import Outcome, Store
 from hysteresis_bench.study.study_file import Study, read_study
+
+
+@dataclass(frozen=True)
+class RunOptions:
+    """Where and what of a study is run.
+
+    retry : do again what failed by the machine's fault: trials killed from outside, out of memory, or not started
+    scheduler : the address of a Dask scheduler whose workers run the trials, instead of processes here
+    shard : run this part of the trials only, into a folder of its own
+    """
+
+    retry: bool = False
+    scheduler: str | None = None
+    shard: Shard | None = None
 
 
 @dataclass(frozen=True)
@@ -46,17 +62,20 @@ def run_study(
     trials: int | None = None,
     jobs: int | None = None,
     out: Path | str | None = None,
+    options: RunOptions | None = None,
     on_progress: Callable[[Progress], None] = lambda progress: None,
 ) -> Path:
     """Run every trial of a study that is not in its results folder yet, then its tables; returns that folder.
 
     trials : overrides the file's number; jobs : worker processes, all cores by default;
     out : the results folder, see default_folder
+    A shard writes no tables but the trials'.
     Raises UserError for a fault in the file, the data, or the folder.
     """
     path = Path(path)
     study, text = read_study(path)
-    folder = Path(out) if out else default_folder(path)
+    options = options or RunOptions()
+    folder = Path(out) if out else default_folder(path, options.shard)
     built = {spec.name: build_problem(spec, study.seed, path.parent) for spec in study.problem}
     if study.closing:
         closing_dataset(study, path.parent)  # its faults are told before the trials, not after them
@@ -66,40 +85,45 @@ def run_study(
         describe(folder, path, study=study, text=text, units=units)
         with Store(folder) as store:
             store.begin(study.title)
+            if options.retry:
+                store.forget(MACHINE)
             tickets = tickets_of(study, path.parent, trials or study.trials)
-            _run_missing(store, study, tickets, jobs or os.cpu_count() or 1, on_progress)
+            tickets = options.shard.of_tickets(tickets) if options.shard else tickets
+            present = store.keys()
+            missing = [ticket for ticket in tickets if ticket.key not in present]
+            done = len(tickets) - len(missing)
+            on_progress(Progress(done, len(tickets), None))
+            for outcome in _outcomes(study, missing, jobs, options.scheduler):
+                store.add(outcome)
+                done += 1
+                on_progress(Progress(done, len(tickets), outcome))
             table, traces = store.table(), store.traces()
-    write_table(folder / TRIALS, table)
+        write_table(folder / TRIALS, table)
+    if options.shard:
+        return folder
     staged, staged_responses = run_stages(study, table, built, folder=path.parent)
     if study.stage:
         write_table(folder / STAGES, staged)
     parts = [responses(table, built), staged_responses]
     write_table(folder / RESPONSES, pd.concat(parts), digits=7)
     determined = json.dumps(identifiability(study, table, built, traces=traces), indent=1, allow_nan=False)
-    (folder / IDENTIFIABILITY).write_text(determined + "\n", encoding="utf-8")
+    write_whole(folder / IDENTIFIABILITY, determined + "\n")
     return folder
 
 
-def default_folder(study: Path) -> Path:
-    """runs/NAME, in the project for a file in its studies folder, beside the file otherwise."""
+def default_folder(study: Path, shard: Shard | None = None) -> Path:
+    """runs/NAME, in the project for a file in its studies folder, beside the file otherwise; a shard has its own."""
     home = study.resolve().parent
-    return (home.parent if home.name == "studies" else home) / "runs" / study.stem
+    name = f"{study.stem}.{shard}" if shard else study.stem
+    return (home.parent if home.name == "studies" else home) / "runs" / name
 
 
-def _run_missing(
-    store: Store, study: Study, tickets: Sequence[Ticket], jobs: int, on_progress: Callable[[Progress], None]
-) -> None:
-    present = store.keys()
-    missing = [ticket for ticket in tickets if ticket.key not in present]
-    done = len(tickets) - len(missing)
-    on_progress(Progress(done, len(tickets), None))
+def _outcomes(study: Study, missing: Sequence[Ticket], jobs: int | None, scheduler: str | None) -> Iterator[Outcome]:
+    """Of the tickets, as they end, in no order."""
     if not missing:
         return
     work = Work(prepare_trial, study.timeout, rehearsals(missing), needs_own_process)
-    with Pool(work, jobs) as pool:
-        for ticket, outcome, status, reason in pool.run(missing):
+    with Cluster(work, scheduler) if scheduler else Pool(work, jobs or os.cpu_count() or 1) as workers:
+        for ticket, outcome, status, reason in workers.run(missing):
             seed = seed_of(*seed_key(study, ticket))[:16]
-            ended = outcome or Outcome(*ticket.key, seed=seed, status=status, reason=reason)
-            store.add(ended)
-            done += 1
-            on_progress(Progress(done, len(tickets), ended))
+            yield outcome or Outcome(*ticket.key, seed=seed, status=status, reason=reason)

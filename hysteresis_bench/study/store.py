@@ -6,7 +6,7 @@ import io
 import json
 import sqlite3
 import zipfile
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import TracebackType
@@ -75,7 +75,8 @@ class Store:
     def __init__(self, folder: Path) -> None:
         self._connection = sqlite3.connect(folder / FILE)
         self._connection.execute("PRAGMA journal_mode = WAL")
-        self._connection.execute("PRAGMA synchronous = FULL")
+        # a kill loses nothing; a power cut may take the last trials, which are run again
+        self._connection.execute("PRAGMA synchronous = NORMAL")
         self._connection.executescript(
             """
             CREATE TABLE IF NOT EXISTS study (title TEXT NOT NULL);
@@ -109,25 +110,24 @@ class Store:
             self._connection.execute("INSERT INTO study VALUES (?)", (title,))
 
     def add(self, outcome: Outcome) -> None:
-        """Write one trial; on disk when this returns. Raises sqlite3.IntegrityError if it is there already."""
-        row = (
-            *outcome.key,
-            outcome.seed,
-            outcome.status,
-            outcome.reason,
-            outcome.evaluations,
-            outcome.fitness,
-            outcome.rmse,
-            outcome.relative_rms,
-            outcome.max_error,
-            outcome.held_out_rmse,
-            outcome.seconds,
-            json.dumps(outcome.parameters),
-            None if outcome.trace is None else _packed(outcome.trace),
-            outcome.origin,
-        )
+        """Write one trial; no kill can take it back when this returns. Raises sqlite3.IntegrityError if it is there."""
+        self.extend([outcome])
+
+    def extend(self, outcomes: Iterable[Outcome]) -> None:
+        """Write trials, all of them or none."""
+        rows = [
+            (
+                *(getattr(outcome, name) for name in COLUMNS[1:]),
+                json.dumps(outcome.parameters),
+                None if outcome.trace is None else _packed(outcome.trace),
+                outcome.origin,
+            )
+            for outcome in outcomes
+        ]
+        names = (*COLUMNS[1:], "parameters", "trace", "origin")
+        marks = ", ".join("?" * len(names))
         with self._connection:
-            self._connection.execute(f"INSERT INTO trials VALUES ({', '.join('?' * len(row))})", row)
+            self._connection.executemany(f"INSERT INTO trials ({', '.join(names)}) VALUES ({marks})", rows)
 
     def keys(self) -> set[tuple[str, str, int]]:
         """(problem, optimizer, trial) of every trial that is there."""

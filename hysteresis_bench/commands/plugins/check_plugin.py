@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from hysteresis_bench import registry
-from hysteresis_bench.commands.console import plain_console
+from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
 
 SINGULAR: dict[str, registry.Kind] = {

@@ -11,8 +11,8 @@ from rich.markup import escape
 from rich.table import Table
 
 from hysteresis_bench import registry
-from hysteresis_bench.commands.console import plain_console
 from hysteresis_bench.commands.plugins.describe import describe, kinds_of
+from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
 
 KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")

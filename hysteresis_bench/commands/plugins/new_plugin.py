@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from hysteresis_bench.commands.console import plain_console, say_path
 from hysteresis_bench.commands.plugins.check_plugin import SINGULAR
+from hysteresis_bench.commands.terminal.console import plain_console, say_path
 from hysteresis_bench.errors import UserError
 
 

@@ -3,19 +3,26 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, lru_cache, partial
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from hysteresis_bench import registry
-from hysteresis_bench.contracts import Optimizer
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Model, Optimizer
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.behaviour import BrokenPromise, broken_promises
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, seed_of, shared_start
+from hysteresis_bench.parameters import Parameter, Space
+from hysteresis_bench.signals import Record, Signal
 from hysteresis_bench.study.origin import origin, plugins_of_problem, plugins_of_trial
 from hysteresis_bench.study.problems import Built, build_problem
 from hysteresis_bench.study.store import Outcome
@@ -112,22 +119,40 @@ def needs_own_process(ticket: Ticket) -> bool:
 
 
 def rehearsals(tickets: Sequence[Ticket]) -> list[Callable[[], object]]:
-    """What the trials of shipped plugins have in common, done once before any of them: the problems, and an evaluation
-    by every optimizer, which imports and compiles what it needs."""
-    first = {(ticket.study, ticket.optimizer): ticket for ticket in reversed(tickets) if not ticket.alone}
-    problems = {ticket.problem: ticket for ticket in tickets if not ticket.alone}
-    builds: list[Callable[[], object]] = [
-        partial(_built, ticket.study, ticket.folder, ticket.problem) for ticket in problems.values()
+    """What trials have in common and plugins of other distributions have no part in, done once before any trial."""
+    first = tickets[0]
+    study = _study(first.study)
+    strange = {spec.name for spec in study.problem if not all(plugin.shipped for plugin in plugins_of_problem(spec))}
+    problems = dict.fromkeys(ticket.problem for ticket in tickets if ticket.problem not in strange)
+    wanted = {ticket.optimizer for ticket in tickets}
+    optimizers = [spec for spec in study.optimizer if spec.name in wanted]
+    ours = [spec for spec in optimizers if registry.load("optimizers", spec.plugin).shipped]
+    return [
+        partial(_study, first.study),
+        partial(origin, ()),
+        *(partial(_built, first.study, first.folder, problem) for problem in problems),
+        *(partial(_rehearse, spec.plugin, spec.settings) for spec in ours),
     ]
-    return builds + [partial(_rehearse, ticket) for ticket in first.values()]
 
 
-def _rehearse(ticket: Ticket) -> None:
-    study, built = _study(ticket.study), _built(ticket.study, ticket.folder, ticket.problem)
-    spec = next(spec for spec in study.optimizer if spec.name == ticket.optimizer)
-    start = shared_start(built.problem.space.dimension, "rehearsal")
-    optimizer = registry.build("optimizers", spec.plugin, spec.settings)
-    search(built.problem, optimizer, budget=1, start=start, rng=generator("rehearsal"))
+class _Line(Model):
+    """y = a u + b, to rehearse on."""
+
+    parameters = (Parameter("a", 0.0, 1.0), Parameter("b", 0.0, 1.0))
+
+    def simulate(self, signal: Signal, p: Any) -> Array:
+        line: Array = p.a * signal.input + p.b
+        return line
+
+
+def _rehearse(plugin: str, settings: Mapping[str, Any]) -> None:
+    """One evaluation by an optimizer, which imports and compiles what it needs."""
+    ramp = np.linspace(0.0, 1.0, 8)
+    system = System(_Line())
+    problem = Problem(system, (Record(ramp, ramp, ramp),), Space(system.parameters), LOSSES["rmse"])
+    start = shared_start(problem.space.dimension, "rehearsal")
+    optimizer = registry.build("optimizers", plugin, settings)
+    search(problem, optimizer, budget=1, start=start, rng=generator("rehearsal"))
 
 
 @lru_cache(maxsize=4)
