@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Any
 
 from hysteresis_bench import registry
@@ -27,7 +28,7 @@ def content_faults(raw: dict[str, Any]) -> list[str]:
         found += [f"[[stage]] {number}: {fault}" for fault in _stage_faults(spec, raw)]
     if isinstance(raw.get("closing"), dict):
         found += [f"[closing]: {fault}" for fault in _closing_faults(raw["closing"], raw)]
-    found += _unprintable(raw)
+    found += [*_unprintable(raw), *_outside(raw.get("published"))]
     found += doubles("optimizer", [str(each.get("label") or each.get("plugin")) for each in tables(raw, "optimizer")])
     for key in ("problem", "stage"):
         found += doubles(key, [str(each["name"]) for each in tables(raw, key) if "name" in each])
@@ -52,6 +53,13 @@ def _unprintable(raw: dict[str, Any]) -> list[str]:
         for number, each in enumerate(tables(raw, key), 1)
         if isinstance(text := each.get(word), str) and not text.isprintable()
     ]
+
+
+def _outside(published: Any) -> list[str]:
+    """The file is copied into the results: it has to lie beside the study, or below it."""
+    if not isinstance(published, str) or not (Path(published).is_absolute() or ".." in Path(published).parts):
+        return []
+    return [f'published = "{published}" lies outside the study\'s folder; put the file beside the study.']
 
 
 def _twice(spec: dict[str, Any]) -> list[str]:

@@ -67,6 +67,7 @@ def test_one_odd_value_is_a_study_or_a_sentence(name, place, value):
         (("problem", 0, "fitted"), ["pwm-60s", "pwm-60s"], '"pwm-60s" is named twice'),
         (("problem", 0, "optimizers"), ["pso", "pso"], '"pso" is named twice'),
         (("optimizer", 0, "label"), "a\tb", "cannot be printed"),
+        (("published",), "../elsewhere.toml", "lies outside"),
     ],
 )
 def test_the_sentence_names_the_place(place, value, words):

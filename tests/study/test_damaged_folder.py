@@ -79,3 +79,12 @@ def test_a_kept_folder_without_its_store_is_reported_beside_its_page(folder):
 def test_a_page_is_written_without_what_is_damaged(folder, file):
     HOW["junk"](folder / file)
     assert f"{file} is damaged" in write_report(folder).read_text(encoding="utf-8")
+
+
+def test_a_page_that_is_a_link_is_not_followed(folder, tmp_path):
+    elsewhere = tmp_path / "elsewhere.html"
+    elsewhere.write_text("mine", encoding="utf-8")
+    (folder / REPORT).symlink_to(elsewhere)
+    with pytest.raises(UserError, match="is a link"):
+        write_report(folder)
+    assert elsewhere.read_text(encoding="utf-8") == "mine"

@@ -9,6 +9,7 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.shared.blocks import Block
 
 PACKAGE = "hysteresis_bench.report"
@@ -42,7 +43,12 @@ class Page:
     contents: bool = False
 
     def write(self, path: Path) -> Path:
-        """Write the page with its style and figures inside; every text is escaped, links and figures excepted."""
+        """Write the page with its style and figures inside; every text is escaped, links and figures excepted.
+
+        Raises UserError where the path is a link: what it points to is not ours to replace.
+        """
+        if path.is_symlink():
+            raise UserError(str(path), f"is a link to {path.readlink()}; remove it, so that the page is written here.")
         style = (files(PACKAGE) / "templates" / "style.css").read_text(encoding="utf-8")
         text: str = _environment().get_template("page.html.j2").render(page=self, style=style)
         path.write_text(text, encoding="utf-8")
