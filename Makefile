@@ -5,7 +5,7 @@ STUDY  ?= studies/sma.toml
 NEWEST ?=
 BIN    := .venv/bin
 
-.PHONY: install study test test-newest docs benchmark clean
+.PHONY: install study test test-newest docs benchmark torture clean
 
 install: .venv/installed
 
@@ -27,6 +27,11 @@ docs: .venv/installed-docs
 
 benchmark: .venv/installed-test
 	$(BIN)/python benchmarks/kernels.py
+	$(BIN)/python benchmarks/runner.py
+
+# About ten minutes: bad trials, kills of the runner and of its workers.
+torture: .venv/installed-test
+	$(BIN)/python benchmarks/torture.py --dask
 
 clean:
 	rm -rf .venv .venv-newest site .pytest_cache .ruff_cache .mypy_cache .hypothesis
@@ -37,7 +42,7 @@ clean:
 	touch $@
 
 .venv/installed-test: .venv/installed
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,docs]'
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[test,docs,cluster]'
 	touch $@
 
 .venv/installed-docs: .venv/installed

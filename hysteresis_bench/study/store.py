@@ -110,7 +110,7 @@ class Store:
             self._connection.execute("INSERT INTO study VALUES (?)", (title,))
 
     def add(self, outcome: Outcome) -> None:
-        """Write one trial; no kill can take it back when this returns. Raises sqlite3.IntegrityError if it is there."""
+        """Write one trial; no kill takes it back when this returns. Raises sqlite3.IntegrityError if it is there."""
         self.extend([outcome])
 
     def extend(self, outcomes: Iterable[Outcome]) -> None:

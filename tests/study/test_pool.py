@@ -9,26 +9,9 @@ from pathlib import Path
 import pytest
 
 from hysteresis_bench.study.execution.pool import Pool, Work
-from tests.study.tickets import BAD, GOOD, alone, prepare
+from tests.study.tickets import GOOD, alone, prepare
+from tests.torture_distribution.misbehaviour import BAD, EXPECTED
 
-EXPECTED = {
-    "sys.exit": ("raised", "SystemExit: 0"),
-    "keyboard interrupt": ("raised", "KeyboardInterrupt"),
-    "generator exit": ("raised", "GeneratorExit"),
-    "wordless": ("raised", "Wordless: it cannot be put into words"),
-    "unpicklable": ("raised", "Unpicklable: held"),
-    "surrogate": ("raised", "ValueError: \N{REPLACEMENT CHARACTER}"),
-    "long text": ("raised", "ValueError: xxx"),
-    "os._exit": ("crashed", "exit code 0"),
-    "segmentation fault": ("crashed", "SIGSEGV"),
-    "abort": ("crashed", "SIGABRT"),
-    "50 GB": ("out-of-memory", "more memory than its share"),
-    "killed": ("killed", "from outside by SIGKILL"),
-    "lock held": ("timed-out", "stopped after 1 s"),
-    "fork": ("crashed", "exit code 3"),
-    "closed descriptors": ("crashed", "closed its connection"),
-    "junk": ("crashed", "cannot be read"),
-}
 WORK = Work(prepare, 1.0, (), alone)
 
 
