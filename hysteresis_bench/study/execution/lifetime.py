@@ -53,7 +53,7 @@ def _children() -> set[int]:
 
 
 def _prctl(option: int, value: int) -> bool:
-    return sys.platform == "linux" and ctypes.CDLL(None).prctl(option, value, 0, 0, 0) == 0
+    return sys.platform == "linux" and int(ctypes.CDLL(None).prctl(option, value, 0, 0, 0)) == 0
 
 
 def _watch(parent: int) -> None:
