@@ -106,7 +106,7 @@ def test_a_dask_worker_killed_in_the_middle_loses_nothing(tmp_path):
         for process in processes:
             process.kill()
             process.wait()
-    assert len(children) == 2, "the template of its thread and a child"
+    assert children, "at least the template that its trials are forked from"
     wait_for(lambda: not any(Path(f"/proc/{child}").exists() for child in children), 10.0)
     assert run_command("run", study, "--trials", 12, "--out", tmp_path / "alone").returncode == 0
     pd.testing.assert_frame_equal(trials(out), trials(tmp_path / "alone"), check_exact=True)

@@ -50,8 +50,9 @@ class Template:
             arguments, pass_fds=[theirs.fileno()], env=environment, stdin=subprocess.DEVNULL, start_new_session=True
         )
         theirs.close()
-        send(self.socket, memory)
-        send(self.socket, (prepare, list(warm)))
+        with suppress(OSError):  # one that ends at once is found gone
+            send(self.socket, memory)
+            send(self.socket, (prepare, list(warm)))
 
     def fork(self, number: int) -> socket.socket:
         """The socket to a new worker of this number. Raises OSError where the template has ended."""
