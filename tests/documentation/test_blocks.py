@@ -12,7 +12,8 @@ from hysteresis_bench import load
 from tests.conftest import ROOT
 from tests.documentation.blocks import blocks, commands, entry_points, fill
 
-KNOWN = {"console", "python", "toml", "csv"}
+KNOWN = {"console", "python", "toml", "csv", "sh", "py"}
+"""Scripts for machines that a test does not have, such as a batch system, are `sh` and `py`: their form is checked."""
 BIN = Path(sys.executable).parent
 
 
@@ -67,3 +68,14 @@ def test_csv_is_read(block, tmp_path):
     path = tmp_path / "block.csv"
     path.write_text(block.text, encoding="utf-8")
     assert load(path).records[0].time.size > 1
+
+
+@pytest.mark.parametrize("block", blocks("sh"), ids=str)
+def test_scripts_for_other_machines_parse(block):
+    done = subprocess.run(["bash", "-n"], input=block.text, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("block", blocks("py"), ids=str)
+def test_programs_for_other_machines_parse(block):
+    compile(block.text, str(block), "exec")
