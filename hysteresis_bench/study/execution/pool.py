@@ -23,7 +23,7 @@ PREPARATION = 600.0
 """Seconds for a ticket's imports, compilation and data, before its own time begins."""
 PATIENCE = 1.0
 """Seconds for a worker that has closed its socket to end by itself."""
-ATTEMPTS = 3
+ATTEMPTS = 10
 """Templates that may end in a row without one becoming ready."""
 OUTSIDE = (signal.SIGKILL, signal.SIGTERM)
 """Signals that no fault of a program's own raises."""
