@@ -36,6 +36,15 @@ class System:
         """The free parameters with their own default boxes."""
         return self._free([part.parameters for _, part in self._stack])
 
+    @property
+    def linear(self) -> tuple[str, ...]:
+        """Free parameters in which the output is jointly affine."""
+        names = () if self._inside else self.model.linear
+        for name, effect in self.effects:
+            outer = tuple(f"{name}.{parameter}" for parameter in effect.linear)
+            names = (*names, *outer) if effect.affine else ()
+        return tuple(name for name in names if name not in self.fixed)
+
     def refusals(self) -> list[str]:
         """Why fixed parameters cannot have their values, a sentence each."""
         every = replace(self, fixed={}).parameters

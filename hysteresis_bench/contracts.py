@@ -60,14 +60,17 @@ class Model(ABC):
     """A hysteresis model: input over time to output over time."""
 
     parameters: ClassVar[tuple[Parameter, ...]]
-    linear: ClassVar[tuple[str, ...]] = ()
-    """Parameters in which the output is jointly affine: fits may eliminate them."""
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
     """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
     put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
     elsewhere p has no such field."""
     example: ClassVar[Example | None] = None
     """With what it makes data, where it may be asked to."""
+
+    @property
+    def linear(self) -> tuple[str, ...]:
+        """Parameters in which the output is jointly affine, without effects inside: fits may eliminate them."""
+        return ()
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:
@@ -126,6 +129,10 @@ class Effect(ABC):
     mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Other effects by name, and why data may not tell them from this one: the end of a sentence that a report prints.
     It is enough for one of the two to say so."""
+    affine: ClassVar[bool] = False
+    """Whether the output is an affine function of what is wrapped: the parameters in which that is affine stay so."""
+    linear: ClassVar[tuple[str, ...]] = ()
+    """Parameters in which the output is affine, jointly with what is wrapped: amplitudes of what is merely added."""
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
     """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
 
@@ -176,6 +183,10 @@ class Objective(Protocol):
     @property
     def evaluations(self) -> int: ...
 
+    @property
+    def linear(self) -> tuple[int, ...]:
+        """Coordinates of the unit box in which the residuals are jointly affine."""
+
     def __call__(self, point: Array) -> float:
         """point : (dimension,) -> loss. One evaluation."""
 
@@ -185,6 +196,10 @@ class Objective(Protocol):
 
     def residuals(self, point: Array) -> Array:
         """point : (dimension,) -> (scored samples,), simulated minus measured. One evaluation."""
+
+    def residual_swarm(self, points: Array) -> Array:
+        """points : (dimension, swarm) -> (scored samples, swarm), simulated minus measured. As many evaluations as
+        columns; where the budget does not afford them all, BudgetSpent is raised as in `many`."""
 
 
 class Optimizer(ABC):

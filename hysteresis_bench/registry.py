@@ -21,7 +21,7 @@ SHIPPED = "hysteresis-bench"
 """The distribution of the framework and of the plugins that come with it."""
 
 # The defaults: the only names of plugins that the framework itself knows.
-SEARCH = "pso-constriction"
+SEARCH = "multistart-least-squares"
 """The search of a fit where none is asked for: what `studies/sma.toml` shows for a log-scaled box. It succeeds in 30
 of 30 trials, as the best ones do, and is the cheapest of these by far (0.1 s a trial); the polish does the rest."""
 REFERENCE = "pso"

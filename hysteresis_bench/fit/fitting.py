@@ -241,8 +241,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
 
 
 def _agreement(problem: Problem, found: Sequence[Array], losses: Sequence[float]) -> tuple[bool, str]:
-    points = [problem.space.to_unit(values[:, None])[:, 0] for values in found]
-    difference = problem.residuals(points[0]) - problem.residuals(points[1])
+    difference = np.diff(problem.residuals(problem.space.to_unit(np.column_stack(found))))
     spread = max(float(np.ptp(record.measured)) for record in problem.records) or 1.0
     apart = float(np.sqrt(np.mean(difference**2))) / spread
     ratio = max(losses) / (min(losses) or 1e-300)

@@ -53,9 +53,21 @@ class Problem:
         return max(float(np.max(np.abs(record.measured))) for record in self.records) or 1.0
 
     @cached_property
+    def worst(self) -> float:
+        """The finite sum of squares that answers NaN and infinity."""
+        return self.samples * (CEILING * self.scale) ** 2
+
+    @cached_property
     def ceiling(self) -> float:
-        """The finite loss that answers NaN and infinity."""
-        return float(self.loss.of(np.array(self.samples * (CEILING * self.scale) ** 2), self.samples, self.scale))
+        """The loss of that."""
+        return float(self.loss.of(np.array(self.worst), self.samples, self.scale))
+
+    @cached_property
+    def linear(self) -> tuple[int, ...]:
+        """Coordinates of the unit box in which the residuals are jointly affine."""
+        names = self.system.linear
+        parameters = enumerate(self.space.parameters)
+        return tuple(row for row, q in parameters if q.name in names and q.scaling == "linear")
 
     @cached_property
     def block(self) -> int:
@@ -83,13 +95,21 @@ class Problem:
             losses = self.loss.of(self.squares(points), self.samples, self.scale)
         return np.fmin(losses, self.ceiling)
 
-    def residuals(self, point: Array) -> Array:
-        """Simulated minus measured over all scored samples, finite; point : (dimension,) in the unit box."""
-        values = self.space.from_unit(point[:, None])
-        parts = [self.system.respond(record, values)[record.scored, 0] - record.measured for record in self.records]
+    def residuals(self, points: Array) -> Array:
+        """Simulated minus measured, (scored samples, swarm), finite; points : (dimension, swarm) in the unit box."""
+        from hysteresis_bench.kernels.squares import residuals_into
+
+        values = np.ascontiguousarray(self.space.from_unit(points))
         limit = CEILING * self.scale
-        residuals: Array = np.clip(np.nan_to_num(np.concatenate(parts), nan=limit), -limit, limit)
-        return residuals
+        joined = np.empty((self.samples, values.shape[1]))
+        for first in range(0, values.shape[1], self.block):
+            columns = slice(first, first + self.block)
+            part, row = np.ascontiguousarray(values[:, columns]), 0
+            for record in self.records:
+                simulated = self.system.respond(record, part)[record.scored]
+                rows = slice(row, row := row + record.measured.size)
+                residuals_into(joined[rows, columns], simulated, record.measured, limit)
+        return joined
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,6 +138,7 @@ class Objective:
         self._problem = problem
         self.budget = budget
         self.dimension = problem.space.dimension
+        self.linear = problem.linear
         self.evaluations = 0
         self.best = np.inf
         self._improvements: list[tuple[int, float, Array]] = []
@@ -148,13 +169,19 @@ class Objective:
         return losses
 
     def residuals(self, point: Array) -> Array:
-        column = np.asarray(point, dtype=float).reshape(self.dimension, 1)
-        self._check(column)
-        self._left()
-        residuals = self._problem.residuals(column[:, 0])
-        squares = np.array([residuals @ residuals])
+        column: Array = self.residual_swarm(np.asarray(point, dtype=float).reshape(self.dimension, 1))[:, 0]
+        return column
+
+    def residual_swarm(self, points: Array) -> Array:
+        points = np.asarray(points, dtype=float)
+        self._check(points)
+        affordable = points[:, : self._left()]
+        residuals = self._problem.residuals(affordable)
+        squares = np.einsum("ij,ij->j", residuals, residuals)
         losses = self._problem.loss.of(squares, self._problem.samples, self._problem.scale)
-        self._record(np.fmin(losses, self._problem.ceiling), column)
+        self._record(np.fmin(losses, self._problem.ceiling), affordable)
+        if affordable.shape[1] < points.shape[1]:
+            raise BudgetSpent
         return residuals
 
     def _left(self) -> int:
@@ -200,6 +227,10 @@ class Objective:
             def evaluations(self) -> int:
                 return meter.evaluations
 
+            @property
+            def linear(self) -> tuple[int, ...]:
+                return meter.linear
+
             def __call__(self, point: Array) -> float:
                 return meter(point)
 
@@ -208,5 +239,8 @@ class Objective:
 
             def residuals(self, point: Array) -> Array:
                 return meter.residuals(point)
+
+            def residual_swarm(self, points: Array) -> Array:
+                return meter.residual_swarm(points)
 
         return Metered()

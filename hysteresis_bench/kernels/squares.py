@@ -1,4 +1,4 @@
-"""Sum of squared errors of a swarm against one measured output."""
+"""Errors of a swarm against one measured output, and the sum of their squares."""
 
 from __future__ import annotations
 
@@ -24,3 +24,19 @@ def sum_of_squares(simulated: Array, measured: Array) -> Array:
             error = simulated[i, j] - target
             total[j] += error * error
     return total
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def residuals_into(out: Array, simulated: Array, measured: Array, limit: float) -> None:
+    """Simulated minus measured, cut at +-limit, which is also what NaN is worth.
+
+    out, simulated : float64[samples, swarm]
+    measured : float64[samples]
+    """
+    samples, swarm = simulated.shape
+    for i in range(samples):
+        target = measured[i]
+        for j in range(swarm):
+            error = simulated[i, j] - target
+            bounded = error if error < limit else limit
+            out[i, j] = bounded if bounded > -limit else -limit

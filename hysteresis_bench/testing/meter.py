@@ -49,6 +49,10 @@ class Watched:
     def evaluations(self) -> int:
         return self._meter.evaluations
 
+    @property
+    def linear(self) -> tuple[int, ...]:
+        return self._meter.linear
+
     def __call__(self, point: Array) -> float:
         return self._pass(self._meter, point)
 
@@ -57,6 +61,9 @@ class Watched:
 
     def residuals(self, point: Array) -> Array:
         return self._pass(self._meter.residuals, point)
+
+    def residual_swarm(self, points: Array) -> Array:
+        return self._pass(self._meter.residual_swarm, points)
 
     def _pass(self, question: Callable[[Array], T], points: Array) -> T:
         columns = np.array(points, dtype=float).reshape(self.dimension, -1)

@@ -25,7 +25,8 @@ class TestOptimizers(OptimizerContract):
 @pytest.mark.parametrize("budget", [1, 7, 60, 517])
 @pytest.mark.parametrize("name", OURS)
 def test_it_does_not_end_early_on_so_small_a_budget(name, budget):
-    assert watch(registry.build("optimizers", name), Waves(5), budget).evaluations == budget
+    found = watch(registry.build("optimizers", name), Waves(5), budget)
+    assert found.evaluations == budget or found.trace.losses[-1] < 1e-9, "it ends early with an optimum in hand only"
 
 
 @pytest.mark.parametrize("name", sorted(set(OURS) - DETERMINISTIC))

@@ -21,7 +21,12 @@ def test_chains_reach_what_scipy_reaches():
     problem = problem_of()
     starts = np.random.default_rng(0).random((problem.space.dimension, 6))
     points, squares = descend(problem, starts, iterations=60)
-    reference = least_squares(problem.residuals, points[:, np.argmin(squares)], bounds=(0, 1), x_scale="jac")
+    reference = least_squares(
+        lambda point: problem.residuals(point[:, None])[:, 0],
+        points[:, np.argmin(squares)],
+        bounds=(0, 1),
+        x_scale="jac",
+    )
     assert np.min(squares) <= 2.0 * reference.cost * (1 + 1e-6)
     assert np.all((points >= 0.0) & (points <= 1.0))
     assert np.allclose(squares, np.sum(errors(problem, points) ** 2, axis=0))

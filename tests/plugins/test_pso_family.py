@@ -27,6 +27,7 @@ class Sphere:
     dimension: int = 5
     evaluations: int = 0
     best: float = np.inf
+    linear: tuple[int, ...] = ()
     swarms: list[np.ndarray] = field(default_factory=list)
 
     def many(self, points):
@@ -43,8 +44,11 @@ class Sphere:
         return float(self.many(np.asarray(point).reshape(-1, 1))[0])
 
     def residuals(self, point):
-        self(point)
-        return np.asarray(point) - TARGET
+        return self.residual_swarm(np.asarray(point).reshape(-1, 1))[:, 0]
+
+    def residual_swarm(self, points):
+        self.many(points)
+        return np.asarray(points) - TARGET[:, None]
 
 
 def search(optimizer, budget, seed=0):

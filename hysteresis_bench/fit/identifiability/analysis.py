@@ -17,11 +17,14 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.identifiability.combinations import Blindness, Combination, blind_groups, listed
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.kernels import levenberg_marquardt
 
 STEP = np.finfo(float).eps ** (1 / 3)
 """Central differences, in scaled parameters: where truncation and rounding are alike."""
 MARGIN = 10.0
 """A direction is unseen when its effect is below this many times the error of the differences."""
+FOLLOWED, FLAT = 40, 1e-10
+"""Iterations of a profile's fits at most, and the relative fall of the sum of squares by which one ends."""
 STRONG = 0.99
 """Correlations above this are told."""
 
@@ -146,8 +149,6 @@ def profile(problem: Problem, name: str, grid: Array, *, values: Array) -> Profi
     grid : inside the parameter's box, any order;  values : (dimension,) where to begin, usually the optimum.
     Raises ValueError for an unknown name or a grid that leaves the box.
     """
-    from scipy.optimize import least_squares
-
     names = problem.space.names
     if name not in names:
         raise ValueError(f"no parameter {name!r}; there are: {', '.join(names)}")
@@ -160,21 +161,27 @@ def profile(problem: Problem, name: str, grid: Array, *, values: Array) -> Profi
     optimum = np.clip(problem.space.to_unit(np.reshape(values, (-1, 1)))[:, 0], 0.0, 1.0)
     points = np.repeat(optimum[:, None], grid.size, axis=1)
     points[row] = np.clip(problem.space.to_unit(np.where(others[:, None], values[:, None], grid))[row], 0.0, 1.0)
-    squares = np.empty(grid.size)
-    nearest = int(np.argmin(np.abs(points[row] - optimum[row])))
-    for walk in (range(nearest, grid.size), range(nearest - 1, -1, -1)):
-        begin = optimum[others]
-        for index in walk:
-            point = points[:, index].copy()
 
-            def residuals(free: Array, point: Array = point) -> Array:
-                point[others] = np.clip(free, 0.0, 1.0)
-                return problem.residuals(point) / problem.scale
+    def full(free: Array, chains: Array) -> Array:
+        swarm = points[:, chains]
+        swarm[others] = free
+        return swarm
 
-            found = least_squares(residuals, np.clip(begin, 1e-9, 1 - 1e-9), bounds=(0.0, 1.0), x_scale="jac")
-            begin = np.clip(found.x, 0.0, 1.0)
-            points[others, index] = begin
-            squares[index] = 2.0 * found.cost * problem.scale**2
+    def follow(starts: Array) -> tuple[Array, Array]:
+        return levenberg_marquardt.descend(
+            lambda free, chains: problem.residuals(full(free, chains)),
+            lambda free, chains: np.fmin(problem.squares(full(free, chains)), problem.worst),
+            np.clip(starts, 1e-9, 1.0 - 1e-9),
+            iterations=FOLLOWED,
+            converged=FLAT,
+        )
+
+    # from the optimum, then from what the neighbour on the optimum's side has found
+    found, squares = follow(points[others])
+    inwards = np.arange(grid.size) - np.sign(np.arange(grid.size) - int(np.argmin(np.abs(points[row] - optimum[row]))))
+    again, less = follow(found[:, inwards])
+    points[others] = np.where(less < squares, again, found)
+    squares = np.fmin(squares, less)
     least = min(float(squares.min()), float(problem.squares(optimum[:, None])[0]))
     ratio = problem.samples * np.log(np.maximum(squares, 1e-300) / max(least, 1e-300))
     return Profile(name, grid, problem.space.from_unit(points), squares, ratio)

@@ -40,6 +40,7 @@ class Asymmetry(Effect):
 
     acts = "input"
     family = "curve of the input"
+    affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "saturation": (
             "off the middle of the loop, a bend of the input and a bend of the output are the same to first order"

@@ -50,6 +50,7 @@ class Backlash(Effect):
 
     acts = "input"
     family = "law"
+    affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "rayleigh-hysteresis": "both make the loop wider with the amplitude",
         "input-lag": "at one amplitude and frequency both shift the loop after a reversal",

@@ -21,6 +21,8 @@ class Bias(Effect):
     acts = "added"
     family = "curve of the output"
     nuisance = True
+    affine = True
+    linear = ("offset",)
     parameters = (Parameter("offset", -1.0, 1.0, unit="{output}", null=0.0, meaning="added to the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

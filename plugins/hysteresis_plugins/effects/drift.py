@@ -33,6 +33,8 @@ class Drift(Effect):
 
     acts = "added"
     family = "change with time, path or temperature"
+    affine = True
+    linear = ("rate",)
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "temperature-sensitivity": "the temperature changed steadily with time, so that either may move the zero",
     }

@@ -44,6 +44,7 @@ class Fatigue(Effect):
 
     acts = "output"
     family = "change with time, path or temperature"
+    affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "drift": "over one cycle count and amplitude, a loop that shrinks also moves its ends",
         "temperature-sensitivity": (

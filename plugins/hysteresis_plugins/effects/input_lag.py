@@ -39,6 +39,7 @@ class InputLag(Effect):
 
     acts = "input"
     family = "linear dynamics before the law"
+    affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "transport-delay": (
             "at one frequency, after the transient, a lag before a rate-independent hysteresis and a delay both only "

@@ -62,6 +62,8 @@ class PeriodicDisturbance(Effect):
 
     acts = "added"
     family = "added disturbance"
+    affine = True
+    linear = ("cosine", "sine")
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "drift": "less than a period of a slow disturbance is a drift",
         "input-lag": "with a periodic input, a disturbance of its frequency shifts the loop as a lag does",

@@ -49,6 +49,8 @@ class RayleighHysteresis(Effect):
 
     acts = "law"
     family = "law"
+    affine = True
+    linear = ("coefficient",)
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_plays,)
     parameters = (
         Parameter("coefficient", 0.0, 1.0, "{output}/{input}^2", null=0.0, meaning="growth of the slope of loops"),

@@ -27,6 +27,7 @@ class RecordDrift(Effect):
     acts = "added"
     family = "change with time, path or temperature"
     nuisance = True
+    affine = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

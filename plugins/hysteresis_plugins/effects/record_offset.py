@@ -25,6 +25,7 @@ class RecordOffset(Effect):
     acts = "added"
     family = "change with time, path or temperature"
     nuisance = True
+    affine = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     default: float = 0.0

@@ -40,6 +40,7 @@ class TemperatureSensitivity(Effect):
 
     acts = "output"
     family = "change with time, path or temperature"
+    affine = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_scaled, _steeper)
     parameters = (
         Parameter("gain", -0.05, 0.05, "1/K", null=0.0, meaning="relative change of the response"),

@@ -45,6 +45,7 @@ class TransportDelay(Effect):
 
     acts = "output"
     family = "linear dynamics after the law"
+    affine = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_shifted, _between)
     parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
 

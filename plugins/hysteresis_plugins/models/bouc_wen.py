@@ -51,6 +51,11 @@ class BoucWen(Model):
         if not 1.0 <= self.n < np.inf:
             raise ValueError(f"n = {self.n} must be a finite number of at least 1.")
 
+    @property
+    def linear(self) -> tuple[str, ...]:
+        """The relaxation knows the output's scale, unless n is 1."""
+        return ("d",) if self.n == 1.0 else ()
+
     def simulate(self, signal: Signal, p: Any) -> Array:
         return with_eddy_current(self._plain, self._dragged, signal, p)
 
