@@ -229,9 +229,10 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
             key = (options.seed, "fit", run)
             start = shared_start(space.dimension, *key)
             best = search(problem, optimizer, budget=options.budget, start=start, rng=generator(*key))
-            found.append(polish(problem, best.values))
-        losses = tuple(float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found)
-        searched = _Searched(problem, ready, tuple(found), losses, repeats, 0.0)
+            found.append(best.values)
+        polished = polish(problem, np.column_stack(found))
+        losses = problem.losses(space.to_unit(polished))
+        searched = _Searched(problem, ready, tuple(polished.T), tuple(losses.tolist()), repeats, 0.0)
         if not options.settle:
             return replace(searched, repeats=0)
         gap = gap_after(system, ready.records, searched.values, repeats=repeats)
@@ -271,7 +272,7 @@ def _notes(space: Space, options: FitOptions, repeats: int) -> tuple[str, ...]:
     box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in space.parameters)
     settled = f" Every loop was passed {repeats} times before it was scored." if repeats else ""
     return (
-        f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each, "
+        f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each at most, "
         f"seed {options.seed}, each finished by a local least-squares polish.{settled}",
         f"Search box: {box}.",
         "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation.",
