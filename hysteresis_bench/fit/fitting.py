@@ -86,7 +86,8 @@ class Fit:
         """For a notebook: the errors, the parameters, the sentences."""
         tables = (table.to_html(index=False, float_format="%.4g") for table in (self.records, self.parameters))
         name = " + ".join((self.model.model, *self.model.effects))
-        return "".join((f"<p>{escape(name)}</p>", *tables, *map(_paragraph, (self.agreement, *self.warnings))))
+        sentences = (f"<p>{escape(text)}</p>" for text in (self.agreement, *self.warnings))
+        return "".join((f"<p>{escape(name)}</p>", *tables, *sentences))
 
 
 @dataclass(frozen=True, eq=False)
@@ -296,7 +297,3 @@ def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
         for (name, estimate), edge in zip(fitted.parameters.items(), edges, strict=True)
     ]
     return pd.DataFrame(rows)
-
-
-def _paragraph(text: str) -> str:
-    return f"<p>{escape(text)}</p>"
