@@ -6,8 +6,6 @@ import sys
 from typing import Any
 
 import click
-from rich.console import Console
-from rich.markup import escape
 
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
@@ -35,6 +33,9 @@ class Group(click.Group):
             told = str(error)
         except OSError as error:  # a folder that cannot be written, a full disk
             told = f"{error.filename or self.name}: {error.strerror or error}."
+        from rich.console import Console
+        from rich.markup import escape
+
         Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
         sys.exit(USER_AT_FAULT)
 

@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
 
 from hysteresis_bench.commands.outputs import check_results, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
@@ -15,6 +14,8 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from hysteresis_bench.study.results import Results
 
 DONE, FAILED_TRIALS = 0, 1

@@ -10,8 +10,6 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from rich.console import Console
-
 
 @contextmanager
 def told_when_stopped(study: Path, kept: Callable[[], str]) -> Iterator[None]:
@@ -26,6 +24,8 @@ def told_when_stopped(study: Path, kept: Callable[[], str]) -> Iterator[None]:
     except KeyboardInterrupt as stopped:
         by = signal.Signals(stopped.args[0]) if stopped.args else signal.SIGINT
         told = f"{study}: stopped by {by.name}; {kept()}. Run it again to continue."
+        from rich.console import Console
+
         Console(stderr=True, soft_wrap=True).print(told, highlight=False, markup=False)
         sys.exit(128 + by)
     finally:

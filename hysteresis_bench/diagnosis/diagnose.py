@@ -9,11 +9,11 @@ from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
-from hysteresis_bench.diagnosis.threads import single_threaded
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.signals import Dataset
 
 
-@single_threaded
+@economical()
 def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 

@@ -23,6 +23,7 @@ from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
@@ -85,7 +86,8 @@ class Fit:
         """For a notebook: the errors, the parameters, the sentences."""
         tables = (table.to_html(index=False, float_format="%.4g") for table in (self.records, self.parameters))
         name = " + ".join((self.model.model, *self.model.effects))
-        return "".join((f"<p>{escape(name)}</p>", *tables, *map(_paragraph, (self.agreement, *self.warnings))))
+        sentences = (f"<p>{escape(text)}</p>" for text in (self.agreement, *self.warnings))
+        return "".join((f"<p>{escape(name)}</p>", *tables, *sentences))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +108,7 @@ class _Searched:
         return self.found[int(np.argmin(self.losses))]
 
 
+@economical()
 def fit_records(
     dataset: Dataset,
     model: str,
@@ -294,7 +297,3 @@ def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
         for (name, estimate), edge in zip(fitted.parameters.items(), edges, strict=True)
     ]
     return pd.DataFrame(rows)
-
-
-def _paragraph(text: str) -> str:
-    return f"<p>{escape(text)}</p>"

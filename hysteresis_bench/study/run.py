@@ -11,6 +11,7 @@ from pathlib import Path
 import pandas as pd
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.seeds import seed_of
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
@@ -56,6 +57,7 @@ class Progress:
     outcome: Outcome | None
 
 
+@economical()
 def run_study(
     path: Path | str,
     *,
