@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.signals import INDEX, Record
+from hysteresis_plugins.models.bouc_wen_generalized import BoucWenGeneralized
 from hysteresis_plugins.models.dahl import Dahl
 from hysteresis_plugins.models.lugre import Lugre
 from hysteresis_plugins.models.maxwell_slip import MaxwellSlip
@@ -11,6 +12,22 @@ from tests.plugins.truths import TIME, held, record, solved, waves
 
 TRUTHS = (
     (MaxwellSlip(elements=3), {"radius": 0.5, "gap": 0.02}, {"slope": 0.4, "k1": 3.0, "k2": 2.0, "k3": 1.0}),
+    (
+        BoucWenGeneralized(),
+        {
+            "u_y": 0.1,
+            "n": 1.6,
+            "beta": 0.6,
+            "phi": 0.1,
+            "delta_nu": 0.02,
+            "delta_eta": 0.02,
+            "zeta": 0.4,
+            "p": 0.5,
+            "q": 0.1,
+            "width": 0.3,
+        },
+        {"slope": 0.4, "F_y": 1.5},
+    ),
     (Dahl(), {"distance": 0.1, "i": 0.6, "gap": 0.05}, {"slope": 0.4, "F_C": 1.5}),
     (
         Lugre(),
