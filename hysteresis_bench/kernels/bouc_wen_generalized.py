@@ -40,9 +40,9 @@ YIELD, POWER, BETA, PHI, STRENGTH, STIFFNESS, PINCHING, GROWTH, PLACE, WIDTH = r
 
 @njit(cache=True, error_model="numpy")
 def _coefficients(
-    g: float, s: float, nu: float, eta: float, pinching: float, bound: float, p: Array
+    g: float, largest: float, s: float, nu: float, eta: float, pinching: float, bound: float, p: Array
 ) -> tuple[float, float]:
-    """a and b of dg/dw = a - b g."""
+    """a and b of dg/dw = a - b g;  largest : of |g| in the step."""
     h = 1.0
     if pinching != 0.0:
         share = (g - p[PLACE] * bound) / p[WIDTH]
@@ -53,7 +53,7 @@ def _coefficients(
     if g >= 0.0:
         return a, a * nu * (1.0 + 2.0 * p[PHI] * s) * power
     # ours: unloading never turns round, which the shape does where the other side is much stronger
-    return a, -min(a * nu * (1.0 - 2.0 * p[BETA]) * power, (1.0 - LEAST) * a / size)
+    return a, -min(a * nu * (1.0 - 2.0 * p[BETA]) * power, (1.0 - LEAST) * a / largest)
 
 
 @njit(cache=True, error_model="numpy")
@@ -79,10 +79,10 @@ def strained(z: float, energy: float, step: float, p: Array) -> tuple[float, flo
         eta = min(max(1.0 + p[STIFFNESS] * energy, LEAST), 1.0 / LEAST)
         bound = (nu * (1.0 + 2.0 * p[PHI] * s)) ** (-1.0 / p[POWER])
         pinching = p[PINCHING] * -math.expm1(-p[GROWTH] * energy)
-        a, b = _coefficients(g, s, nu, eta, pinching, bound, p)
+        a, b = _coefficients(g, abs(g), s, nu, eta, pinching, bound, p)
         edge = max(bound, g)
         middle = min(_relaxed(g, a, b, 0.5 * width), edge)
-        a, b = _coefficients(middle, s, nu, eta, pinching, bound, p)
+        a, b = _coefficients(middle, max(abs(g), abs(middle)), s, nu, eta, pinching, bound, p)
         new = min(_relaxed(g, a, b, width), edge)
         energy = max(energy + 0.5 * (g + new) * width, 0.0)
         g = new
