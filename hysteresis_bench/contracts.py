@@ -57,7 +57,13 @@ class Example:
 
 
 class Model(ABC):
-    """A hysteresis model: input over time to output over time."""
+    """A hysteresis model: input over time to output over time.
+
+    Where a setting says how many parameters there are, such as a number of plays, `__post_init__` sets `parameters` and
+    `linear` of the instance; those of the class are the defaults'. What a law must remember of the fitted range, such
+    as its largest threshold, is a parameter whose box follows from the data: a fit may move it, model.json keeps it,
+    and it is told with its unit and error, like any other.
+    """
 
     parameters: ClassVar[tuple[Parameter, ...]]
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
