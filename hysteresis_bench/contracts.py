@@ -66,17 +66,14 @@ class Model(ABC):
     """
 
     parameters: ClassVar[tuple[Parameter, ...]]
+    linear: ClassVar[tuple[str, ...]] = ()
+    """Parameters in which the output is jointly affine, without effects inside: fits may eliminate them."""
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
     """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
     put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
     elsewhere p has no such field."""
     example: ClassVar[Example | None] = None
     """With what it makes data, where it may be asked to."""
-
-    @property
-    def linear(self) -> tuple[str, ...]:
-        """Parameters in which the output is jointly affine, without effects inside: fits may eliminate them."""
-        return ()
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:

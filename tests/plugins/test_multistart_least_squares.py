@@ -64,10 +64,7 @@ class Rays(Model):
     """Linear in all of its parameters."""
 
     parameters = tuple(Parameter(name, -5.0, 5.0) for name in ("a", "b", "c"))
-
-    @property
-    def linear(self):
-        return ("a", "b", "c")
+    linear = ("a", "b", "c")
 
     def simulate(self, signal, p):
         u = signal.input[:, :1]
@@ -78,9 +75,7 @@ class Rays(Model):
 class Void(Rays):
     """Nothing can be simulated anywhere."""
 
-    @property
-    def linear(self):
-        return ()
+    linear = ()
 
     def simulate(self, signal, p):
         return np.full((signal.input.shape[0], p.a.size), np.nan)

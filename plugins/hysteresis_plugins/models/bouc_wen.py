@@ -55,11 +55,6 @@ class BoucWen(Model):
             raise ValueError(f"n = {self.n} must be a finite number of at least 1.")
         object.__setattr__(self, "linear", ("d",) if self.n == 1.0 else ())  # |h|^n does not scale with h
 
-    @property
-    def linear(self) -> tuple[str, ...]:
-        """The relaxation knows the output's scale, unless n is 1."""
-        return ("d",) if self.n == 1.0 else ()
-
     def simulate(self, signal: Signal, p: Any) -> Array:
         return with_eddy_current(self._plain, self._dragged, signal, p)
 
