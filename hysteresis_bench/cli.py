@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from hysteresis_bench.commands.compare import compare
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
@@ -52,5 +53,19 @@ def main() -> None:
     and find what the model lacks."""
 
 
-for command in (check_plugin, control, diagnose, fit, list_plugins, measure, merge, new_plugin, predict, report, run):
+COMMANDS = (
+    check_plugin,
+    compare,
+    control,
+    diagnose,
+    fit,
+    list_plugins,
+    measure,
+    merge,
+    new_plugin,
+    predict,
+    report,
+    run,
+)
+for command in COMMANDS:
     main.add_command(command)

@@ -19,7 +19,8 @@ SHOWN = 8
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
-@click.option("--model", required=True, help="A registered model; see `list models`.")
+@click.option("--model", default="", help="A registered model; default: the law is found from the data.")
+@click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Where the law is sought.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
@@ -33,6 +34,7 @@ SHOWN = 8
 def diagnose(
     data: Sequence[Path],
     model: str,
+    models: str,
     held_out: Sequence[str],
     effects: Sequence[str],
     input_offset: float,
@@ -54,7 +56,8 @@ def diagnose(
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
     dataset = load(*data, held_out=held_out)
-    options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms)
+    laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
+    options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws)
     found = find(dataset, model, effects, options=options)
     console = Console(soft_wrap=False)
     print_diagnosis(found, console)

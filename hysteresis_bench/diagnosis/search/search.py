@@ -64,7 +64,7 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
         for part in (records, thinned(prepared.views))
     )
     possible, impossible = thin.stack.candidates()
-    with Workers(thin, question.options.jobs or min(4, os.cpu_count() or 1)) as workers:
+    with Workers[Hypothesis](thin, question.options.jobs or min(4, os.cpu_count() or 1)) as workers:
         selection = Selection(thin, workers, evidence.floor, possible)
         base = thin.bare(frozenset({registry.RECORD_OFFSET}))
         best = selection.run(base)
