@@ -40,12 +40,13 @@ class Line:
 
 def show(title: str, unit: str, lines: Iterable[Line]) -> None:
     """Print a table."""
-    table = Table(title=escape(title), title_justify="left", box=None, pad_edge=False, padding=(0, 3, 0, 0))
+    table = Table(box=None, pad_edge=False, padding=(0, 3, 0, 0))
     for heading in ("", unit, "asked", ""):
         table.add_column(escape(heading), justify="right" if heading else "left")
     for line in lines:
         table.add_row(escape(line.name), f"{line.value:.3g}", line.asked, line.verdict)
     console = Console(width=120, highlight=False)
+    console.print(f"[bold]{escape(title)}[/]")
     console.print(table)
     console.print()
 
