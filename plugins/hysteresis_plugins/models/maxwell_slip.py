@@ -77,9 +77,8 @@ class MaxwellSlip(Model):
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.stop_bank import stop_bank
 
-        limits = self._shares[:, None] * p.radius
         stiffnesses = np.stack([getattr(p, name) for name in named("k", self.elements)])
-        return stop_bank(signal.input, p.slope, rated(limits, signal, p), stiffnesses, p.gap)
+        return stop_bank(signal.input, p.slope, rated(self.limits(p.radius), signal, p), stiffnesses, p.gap)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The radius from a fiftieth of half the span of the input to all of it, the gap up to a fifth of the span;
@@ -98,6 +97,10 @@ class MaxwellSlip(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
+
+    def limits(self, radius: Array) -> Array:
+        """Where the elements slip, (elements, swarm)."""
+        return self._shares[:, None] * radius
 
     @property
     def _shares(self) -> Array:
