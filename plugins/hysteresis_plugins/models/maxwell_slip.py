@@ -36,7 +36,7 @@ def _parameters(elements: int) -> tuple[Parameter, ...]:
         for k, name in enumerate(named("k", elements), start=1)
     )
     return (
-        RADIUS.within(0.01, 0.5, "log"),
+        RADIUS.within(0.01, 0.5),
         Parameter("gap", 0.0, 0.2, "{input}", meaning="half of the clearance that is crossed without force"),
         Parameter("slope", -5.0, 5.0, "{output}/{input}", meaning="of the part without hysteresis"),
         *springs,

@@ -40,7 +40,8 @@ LAWS: Mapping[str, Any] = {
 }
 MAGNIFIED = 10.0
 """How much larger the spring's force may be than the driving one, at resonance."""
-
+STIFFEST = 10.0
+"""Largest -alpha of Bouc-Wen in the box."""
 RUNAWAY = 1e9
 """Where Bouc-Wen's h has no bound it is cut at this many times the largest force."""
 
@@ -131,7 +132,9 @@ class Oscillator(Model):
 
 
 def _stiff(box: Parameter) -> Parameter:
-    """A spring that pushes away has no rest."""
+    """A spring that pushes away has no rest; one that first is many times as stiff as later hardly swings."""
+    if box.name == "alpha":
+        return box.within(max(box.lower, -STIFFEST), box.upper)
     return box.within(0.0, box.upper) if box.name in ("slope", "d", "a0_1") else box
 
 
