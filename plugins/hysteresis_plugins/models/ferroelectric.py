@@ -73,6 +73,7 @@ class Ferroelectric(Model):
             "w_2": 0.8,
         },
         stream=13,
+        without=("threshold-rate",),
     )
 
     populations: int = 2
