@@ -38,8 +38,6 @@ LAWS: Mapping[str, Any] = {
     "prandtl-ishlinskii": PrandtlIshlinskii(),
     "preisach": Preisach(),
 }
-MAGNIFIED = 10.0
-"""How much larger the spring's force may be than the driving one, at resonance."""
 STIFFEST = 10.0
 """Largest -alpha of Bouc-Wen in the box."""
 RUNAWAY = 1e9
@@ -108,27 +106,69 @@ class Oscillator(Model):
         return kernels.plays_oscillator(*driven, rows, plays + 1)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """The law's box for the force over the displacement, the force ten times as large, with stiffnesses of its
-        linear part above 0; a mass and a damping that with the ratio of the spans, up to a hundred times as large, make
-        a resonance about the output's dominant frequency."""
+        """Mass and damping about those of the linear oscillator that fits the records best, within a factor of 3 and
+        from a thousandth to three times; the law's box for a force over the displacement that is as steep as that
+        oscillator's spring, with stiffnesses of its linear part above 0."""
+        measured = [record for record in records if record.output is not None]
+        m, c, k = linear_oscillator(measured)
+        force = k / steepness([_swapped(record, 1.0) for record in measured])
         mass, damping, *_ = self.parameters
-        swapped = [
-            replace(record, input=record.output, output=MAGNIFIED * record.input, history=record.history)
-            for record in records
-            if record.output is not None
-        ]
-        ratio = 1.0 / steepness(records)
-        angular = 2.0 * np.pi * max(map(dominant_frequency, swapped))
         return (
-            mass.within(0.02 * ratio / angular**2, 200.0 * ratio / angular**2),
-            damping.within(1e-3 * ratio / angular, 50.0 * ratio / angular),
-            *(_stiff(_exchanged(box)) for box in LAWS[self.law].box(swapped)),
+            mass.within(m / 3.0, 3.0 * m),
+            damping.within(1e-3 * c, 3.0 * c),
+            *(_stiff(_exchanged(q)) for q in LAWS[self.law].box([_swapped(one, force) for one in measured])),
         )
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         if not all(record.timed for record in records):
             return ("Time is only an index here: mass and damping are told in samples.",)
         return ()
+
+
+def _swapped(record: Record, factor: float) -> Record:
+    """The record as its spring sees it: the displacement drives, the force, times a factor, answers."""
+    return replace(
+        record,
+        input=record.measured,
+        output=factor * record.input[record.scored],
+        time=record.time[record.scored],
+        history=0,
+        columns={},
+    )
+
+
+def linear_oscillator(records: Sequence[Record]) -> tuple[float, float, float]:
+    """Mass, damping and stiffness that explain the force's spectrum best where the displacement has its power.
+
+    Where that leaves one of them at 0 or below, or nothing moves, what resonates at the displacement's dominant
+    frequency with the stiffness of the spans and a tenth of critical damping.
+    """
+    rows, targets = [], []
+    for record in (_swapped(record, 1.0) for record in records):
+        time = np.linspace(record.time[0], record.time[-1], record.time.size)
+        taper = np.hanning(time.size)
+        X, U = (
+            np.fft.rfft(taper * (even - np.mean(even)))
+            for even in (np.interp(time, record.time, values) for values in (record.input, record.measured))
+        )
+        step = float(time[-1] - time[0]) / max(time.size - 1, 1)
+        angular = 2.0 * np.pi * np.fft.rfftfreq(time.size, step or 1.0)
+        weight = np.abs(X)
+        rows.append(np.stack([-(angular**2) * X, 1j * angular * X, X], axis=1) * weight[:, None])
+        targets.append(U * weight)
+    A, b = np.concatenate(rows), np.concatenate(targets)
+    size = np.linalg.norm(A, axis=0)
+    if np.all(size > 0.0):
+        scaled = A / size
+        found = np.linalg.lstsq(
+            np.concatenate([scaled.real, scaled.imag]), np.concatenate([b.real, b.imag]), rcond=None
+        )
+        m, c, k = (float(value) for value in found[0] / size)
+        if min(m, c, k) > 0.0:
+            return m, c, k
+    resonance = 2.0 * np.pi * max(dominant_frequency(_swapped(record, 1.0)) for record in records)
+    k = steepness([_swapped(record, 1.0) for record in records])
+    return k / resonance**2, 0.2 * k / resonance, k
 
 
 def _stiff(box: Parameter) -> Parameter:
