@@ -87,7 +87,7 @@ class PreisachHats(Model):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The radius from a fiftieth to all of half the span of the input, the reach from a tenth of that half to all
-        of it, the centre in the middle half; every weight up to twice the range of the output, on the side of the loops'
+        of it, the centre in the middle half; weights up to twice the range of the output, on the side of the loops'
         sense, on both where the data do not say."""
         radius, centre, reach, slope, *weights = self.parameters
         low = min(float(np.min(record.input)) for record in records)
