@@ -38,8 +38,8 @@ LAWS: Mapping[str, Any] = {
     "prandtl-ishlinskii": PrandtlIshlinskii(),
     "preisach": Preisach(),
 }
-STIFFEST = 10.0
-"""Largest -alpha of Bouc-Wen in the box."""
+NARROWED = {"alpha": (0.025, 1.0), "beta": (3.0, 0.1), "gamma": (0.2, 0.2)}
+"""Shares of the edges of Bouc-Wen's box that are kept."""
 RUNAWAY = 1e9
 """Where Bouc-Wen's h has no bound it is cut at this many times the largest force."""
 
@@ -172,9 +172,11 @@ def linear_oscillator(records: Sequence[Record]) -> tuple[float, float, float]:
 
 
 def _stiff(box: Parameter) -> Parameter:
-    """A spring that pushes away has no rest; one that first is many times as stiff as later hardly swings."""
-    if box.name == "alpha":
-        return box.within(max(box.lower, -STIFFEST), box.upper)
+    """A spring that pushes away has no rest; one that is at first many times as stiff as later, or whose hysteresis is
+    over after a hundredth of the way, hardly swings otherwise than a linear one."""
+    if box.name in NARROWED:
+        low, high = NARROWED[box.name]
+        return box.within(low * box.lower, high * box.upper)
     return box.within(0.0, box.upper) if box.name in ("slope", "d", "a0_1") else box
 
 
