@@ -4,6 +4,7 @@ import numpy as np
 
 from hysteresis_bench.kernels.dead_zones import dead_zones
 from hysteresis_bench.kernels.play_bank import play_bank
+from hysteresis_bench.kernels.play_hats import play_hats
 
 
 def plain(u, radii, coefficients):
@@ -43,3 +44,16 @@ def test_dead_zones_bend_a_line_on_either_side():
         expected += 3.0 * (away - 1.5) if away > 1.5 else 0.0
         expected += 0.7 * (away + 0.5) if away < -0.5 else 0.0
         np.testing.assert_allclose(found, expected, rtol=1e-12, atol=1e-12)
+
+
+def test_curves_of_straight_pieces_are_interpolated_between_their_nodes():
+    rng = np.random.default_rng(9)
+    u = np.cumsum(rng.normal(size=300))
+    radii, weights = np.array([0.0, 1.5])[:, None], rng.normal(size=(2, 4, 1))
+    nodes = np.array([-5.0, -1.0, 0.0, 2.0, 9.0])
+    positions, expected = [u[0]] * 2, []
+    for value in u.tolist():
+        positions = [max(value - r, min(value + r, p)) for r, p in zip(radii[:, 0], positions, strict=True)]
+        curves = [np.append(0.0, np.cumsum(rise[:, 0])) for rise in weights]
+        expected.append(sum(np.interp(p, nodes, curve) for p, curve in zip(positions, curves, strict=True)))
+    np.testing.assert_allclose(play_hats(u[:, None], radii, nodes[:, None], weights)[:, 0], expected, atol=1e-12)

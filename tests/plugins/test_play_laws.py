@@ -1,13 +1,17 @@
 """Laws of play operators on data of known truth."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.signals import Record
+from hysteresis_plugins.models._data import sense
 from hysteresis_plugins.models.prandtl_ishlinskii import PrandtlIshlinskii
 from hysteresis_plugins.models.prandtl_ishlinskii_modified import PrandtlIshlinskiiModified
 from hysteresis_plugins.models.preisach import Preisach
+from hysteresis_plugins.models.preisach_hats import PreisachHats
 from tests.plugins.truths import TIME, held, record, simulated, solved, waves
 
 WEIGHTS = {"w1": 0.8, "w2": 0.3, "w3": 0.1}
@@ -34,6 +38,21 @@ def test_no_threshold_lies_where_the_input_never_was():
 def test_either_sense_is_allowed_where_the_data_do_not_say():
     box = PrandtlIshlinskii().box([Record(TIME, waves(), 2.0 * waves())])
     assert box[2].lower == -box[2].upper < 0.0
+
+
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("way", [1.0, -1.0])
+def test_reversal_curves_tell_the_sense_together(side, way):
+    law = PrandtlIshlinskii(plays=3)
+    truth = {"radius": 0.9, "slope": 1.6, **{name: side * w for name, w in WEIGHTS.items()}}
+    records = []
+    for back in (-0.6, -0.2, 0.2, 0.6):
+        u = way * np.concatenate([[-1.0, 1.0], np.linspace(back, 1.0, 40)])
+        y = simulated(law, u, time=np.arange(42.0), **truth)
+        records.append(Record(np.arange(42.0), u, y, history=2))
+    assert sense(records) == side
+    assert sense(records[:1]) == 0
+    assert sense([replace(one, history=0) for one in records]) == 0  # the way back is one step
 
 
 def test_coefficients_of_polynomials_are_found_again_inside_the_box():
@@ -88,3 +107,13 @@ def test_thresholds_grow_with_the_frequency():
     path, span = np.sum(np.abs(np.diff(u))), np.ptp(u)
     radius = 0.45 * (1.0 + 0.1 * np.log(path / (2.0 * span * 0.6)))
     assert np.array_equal(grown, simulated(law, u, radius=2.0 * radius, slope=0.0, w1=1.0))
+
+
+def test_a_density_is_read_off_reversal_curves():
+    law = PreisachHats(plays=2, pieces=3)
+    rng = np.random.default_rng(5)
+    truth = {"radius": 0.6, "centre": 0.1, "reach": 1.0, **{name: rng.random() for name in law.linear}}
+    one = record(law, waves(1.6, centre=0.1), **truth)
+    found = solved(law, one, **{name: truth[name] for name in ("radius", "centre", "reach")})
+    np.testing.assert_allclose([found[name] for name in law.linear], [truth[name] for name in law.linear], rtol=1e-6)
+    assert not held(law, [one], truth)

@@ -15,10 +15,10 @@ def waves(amplitude=1.0, centre=0.0):
     return centre + amplitude * np.sin(2 * np.pi * TIME) * (1.0 - 0.12 * TIME)
 
 
-def simulated(model, u, **values):
+def simulated(model, u, time=TIME, **values):
     """The output of one particle, (samples,)."""
     values = np.array([[values[q.name]] for q in model.parameters])
-    return System(model).simulate(Record(TIME, u, None).signal, values)[:, 0]
+    return System(model).simulate(Record(time, u, None).signal, values)[:, 0]
 
 
 def record(model, u, **values):

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
@@ -21,6 +21,12 @@ def _integral(time: Array, u: Array) -> Array:
     total = np.zeros_like(u)
     np.cumsum(0.5 * (u[1:] + u[:-1]) * np.diff(time)[:, None], axis=0, out=total[1:])
     return total
+
+
+def _summed(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Charge counted up sample by sample."""
+    charge = np.cumsum(u) * hiding.step
+    return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
 
 
 @dataclass(frozen=True)
@@ -44,6 +50,7 @@ class Leakage(Effect):
         "output-lag": "at one frequency both add a part that is a quarter of a period late",
         "transport-delay": "at one frequency both add a part that is a quarter of a period late",
     }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_summed,)
     parameters = (Parameter("conductance", -1.0, 1.0, "{output}/({input} {time})", null=0.0, meaning="of what leaks"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -14,6 +14,8 @@ SIGNIFICANT = 4.0
 """Enclosed areas from this many of their standard errors have a sign."""
 THIN = 2e-3
 """Share of the rectangle around the loop below which an enclosed area says nothing, whatever its error."""
+COARSE = 0.3
+"""A step of the input beyond this share of its span leaves out a branch: such a loop's area says nothing."""
 STEEPEST = 50.0
 """Largest slope of a box, in ratios of the spans of output and input."""
 CLEAR = 0.5
@@ -44,7 +46,7 @@ def measured(records: Sequence[Record]) -> list[Record]:
 def sense(records: Sequence[Record]) -> int:
     """1 where loops run anticlockwise, output over input: it lags; -1 where they run clockwise, as a force over a
     displacement does; 0 where the data do not say, or where records disagree."""
-    found = {_sense(record) for record in measured(records)} - {0}
+    found = {_sense(record) for record in measured(records)} - {0} or {_of_reversal_curves(measured(records))} - {0}
     return found.pop() if len(found) == 1 else 0
 
 
@@ -60,6 +62,8 @@ def _sense(record: Record) -> int:
         return 0
     first, last = _cycles(u)
     u, y = u[first : last + 1], y[first : last + 1]
+    if np.max(np.abs(np.diff(u)), initial=0.0) > COARSE * np.ptp(u):
+        return 0
     closed = np.append(y, y[0]) - np.mean(y)
     steps = np.append(np.diff(u), u[0] - u[-1])
     between = 0.5 * (closed[1:] + closed[:-1])
@@ -82,6 +86,27 @@ def _cycles(u: Array) -> tuple[int, int]:
     far = np.abs(u - u[0])
     turned = int(np.argmax(far))
     return 0, turned + int(np.argmin(far[turned:]))
+
+
+def _of_reversal_curves(records: Sequence[Record]) -> int:
+    """The sense of records that each go one way from a reversal of their own: where a curve begins it still has the
+    output of the way back, which the curves that come from further on there have not."""
+    curves = [(record.input[record.scored], record.measured) for record in records]
+    rising = [bool(np.all(np.diff(u) >= 0.0)) for u, _ in curves]
+    falling = [bool(np.all(np.diff(u) <= 0.0)) for u, _ in curves]
+    if len(curves) < 3 or not (all(rising) or all(falling)):
+        return 0
+    way = 1 if all(rising) else -1
+    above = [
+        y[0] - np.interp(way * u[0], way * v, z)
+        for u, y in curves
+        for v, z in curves
+        if way * v[0] < way * u[0] <= way * v[-1]
+    ]
+    if not above:
+        return 0
+    typical = float(np.median(above))
+    return int(way * np.sign(typical)) if abs(typical) > THIN * output_span(records) else 0
 
 
 def slope(record: Record) -> float:

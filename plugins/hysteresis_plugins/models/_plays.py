@@ -12,9 +12,15 @@ from hysteresis_bench.signals import Record
 from hysteresis_plugins.models._data import input_span
 
 RADIUS = Parameter(
-    "radius", 0.05, 0.5, "{input}", meaning="what the thresholds divide, the half range of the data", positive=True
+    "radius",
+    0.05,
+    0.5,
+    "{input}",
+    "log",
+    meaning="what the thresholds divide, at most the half range",
+    positive=True,
 )
-NARROWEST = 0.4
+NARROWEST = 0.05
 """Least radius in half ranges of the input."""
 
 

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import motionless, without_time
@@ -33,6 +33,13 @@ def _logarithm(record: Record) -> float:
     return float(np.log(frequency(record.time, record.input[:, None])[0]))
 
 
+def _stretched(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A law of plays with straight curves is stretched with its thresholds, input and output alike."""
+    grown = 1.0 + 0.3 * hiding.strength * float(np.log(frequency(hiding.time, u[:, None])[0]))
+    factor = max(grown, 0.3)
+    return factor * inner(u / factor)
+
+
 @dataclass(frozen=True)
 class ThresholdRate(Effect):
     """Thresholds inside the law that grow with the logarithm of the frequency: r (1 + growth ln f).
@@ -51,6 +58,7 @@ class ThresholdRate(Effect):
         "transport-delay": "both make the loop wider with the frequency",
         "eddy-current": "both make the loop wider with the frequency",
     }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_stretched,)
     parameters = (Parameter("growth", -0.1, 0.1, "1", null=0.0, meaning="of the thresholds with the log of frequency"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -1,4 +1,4 @@
-"""Ferroelectric polarization: two populations of domains that switch, and a linear permittivity.
+"""Ferroelectric polarization: populations of domains that switch, and a linear permittivity.
 
 [1] S. L. Miller, R. D. Nasby, J. R. Schwank, M. S. Rodgers, P. V. Dressendorfer, J. Appl. Phys. 68 (1990) 6463:
     branches of hyperbolic tangents.
@@ -20,46 +20,43 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, falling, input_span, offset, output_span, sense, sided, steepness
+from hysteresis_plugins.models._plays import at_least, named
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
-POPULATIONS = ("1", "2")
 TALLEST = 5.0
 """Largest saturation of a population in the box, in ranges of the output."""
 
 
+def _parameters(populations: int) -> tuple[Parameter, ...]:
+    own = (
+        parameter
+        for i in range(1, populations + 1)
+        for parameter in (
+            Parameter(f"P_{i}", 0.0, 5.0, "{output}", meaning=f"saturation of population {i}"),
+            Parameter(f"r_{i}", 0.0, 0.5, "{input}", meaning=f"coercive field of population {i}"),
+            Parameter(f"b_{i}", -0.5, 0.5, "{input}", meaning=f"internal field of population {i}"),
+            Parameter(f"w_{i}", 0.02, 2.0, "{input}", "log", meaning=f"width of population {i}", positive=True),
+        )
+    )
+    slope = Parameter("permittivity", 0.0, 5.0, "{output}/{input}", meaning="slope of the part without hysteresis")
+    return (slope, *own)
+
+
 @dataclass(frozen=True)
 class Ferroelectric(Model):
-    """Ferroelectric: two populations of domains that switch at coercive fields of their own, and a permittivity.
+    """Ferroelectric: populations of domains that switch at coercive fields of their own, and a permittivity.
 
-    y = permittivity u + sum over i = 1, 2 of P_i tanh((P_ri[u] - b_i) / w_i), r_i the coercive field: on the branches
-    of a saturated loop the tanh((u ± r) / w) of [1], after a reversal it goes on from where it was, as in [2].
+    y = permittivity u + sum over populations i of P_i tanh((P_ri[u] - b_i) / w_i), r_i the coercive field: on the
+    branches of a saturated loop the tanh((u ± r) / w) of [1], after a reversal it goes on from where it was, as in [2].
     Rate-independent; linear in permittivity and P_i. Internal fields b_i make the loop asymmetric.
+
+    populations : how many, 1 to 12
 
     Ours: the hysteresis of minor loops is that of the play, which starts in the middle of its dead band. The constant
     is the effect bias, or record-offset.
     """
 
-    parameters = (
-        Parameter("permittivity", 0.0, 5.0, "{output}/{input}", meaning="slope of the part without hysteresis"),
-        *(
-            parameter
-            for i in POPULATIONS
-            for parameter in (
-                Parameter(f"P_{i}", 0.0, 5.0, "{output}", meaning=f"saturation of population {i}"),
-                Parameter(f"r_{i}", 0.0, 0.5, "{input}", meaning=f"coercive field of population {i}"),
-                Parameter(f"b_{i}", -0.5, 0.5, "{input}", meaning=f"internal field of population {i}"),
-                Parameter(
-                    f"w_{i}",
-                    0.02,
-                    2.0,
-                    "{input}",
-                    "log",
-                    meaning=f"width of population {i}",
-                    positive=True,
-                ),
-            )
-        ),
-    )
+    parameters = _parameters(2)
     linear = ("permittivity", "P_1", "P_2")
     offers = OFFERS
     example = Example(
@@ -76,13 +73,22 @@ class Ferroelectric(Model):
             "w_2": 0.8,
         },
         stream=13,
+        without=("threshold-rate",),
     )
+
+    populations: int = 2
+
+    def __post_init__(self) -> None:
+        at_least("populations", self.populations, 1, 12)
+        parameters = _parameters(self.populations)
+        object.__setattr__(self, "parameters", parameters)
+        object.__setattr__(self, "linear", ("permittivity", *named("P_", self.populations)))
 
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.play_tanh import play_tanh
 
         heights, radii, centres, widths = (
-            np.stack([getattr(p, f"{name}_{i}") for i in POPULATIONS]) for name in ("P", "r", "b", "w")
+            np.stack([getattr(p, one) for one in named(f"{name}_", self.populations)]) for name in ("P", "r", "b", "w")
         )
         polarization = play_tanh(signal.input, heights, rated(radii, signal, p), centres, widths)
         polarization += p.permittivity * signal.input

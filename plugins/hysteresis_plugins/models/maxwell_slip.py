@@ -36,7 +36,7 @@ def _parameters(elements: int) -> tuple[Parameter, ...]:
         for k, name in enumerate(named("k", elements), start=1)
     )
     return (
-        RADIUS.within(0.01, 0.5, "log"),
+        RADIUS.within(0.01, 0.5),
         Parameter("gap", 0.0, 0.2, "{input}", meaning="half of the clearance that is crossed without force"),
         Parameter("slope", -5.0, 5.0, "{output}/{input}", meaning="of the part without hysteresis"),
         *springs,
@@ -77,9 +77,8 @@ class MaxwellSlip(Model):
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.stop_bank import stop_bank
 
-        limits = self._shares[:, None] * p.radius
         stiffnesses = np.stack([getattr(p, name) for name in named("k", self.elements)])
-        return stop_bank(signal.input, p.slope, rated(limits, signal, p), stiffnesses, p.gap)
+        return stop_bank(signal.input, p.slope, rated(self.limits(p.radius), signal, p), stiffnesses, p.gap)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The radius from a fiftieth of half the span of the input to all of it, the gap up to a fifth of the span;
@@ -98,6 +97,10 @@ class MaxwellSlip(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
+
+    def limits(self, radius: Array) -> Array:
+        """Where the elements slip, (elements, swarm)."""
+        return self._shares[:, None] * radius
 
     @property
     def _shares(self) -> Array:

@@ -74,6 +74,7 @@ class PrandtlIshlinskiiModified(Model):
             **{name: 0.1 for name in named("below", 3)},
         },
         stream=6,
+        without=("threshold-rate",),
     )
 
     plays: int = 8
