@@ -1,0 +1,55 @@
+"""Give everything that is read, and every model and effect, inputs that nobody would write, and count what happens.
+
+    .venv/bin/python benchmarks/fuzzing.py [--inputs N] [--seed S] [--only NAME]
+
+An input is answered, or refused with a sentence. What fails is a traceback, a hang, or a silent wrong number: where the
+same data are written in another way (other units, another order of the columns, a NaN put in, rows shuffled), the
+numbers must be the same, or there must be a sentence. Exits with 1 where anything fails.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from benchmarks.fuzz import simulations
+from benchmarks.fuzz.target import KINDS, Count, Target, fuzz
+
+TARGETS: tuple[Target, ...] = (*simulations.TARGETS,)
+
+
+def fuzz_all(inputs: int, seed: int, only: str = "") -> dict[str, Count]:
+    """By the target's name; every target gets its share of the inputs, and one at least."""
+    shares = sum(target.share for target in TARGETS)
+    counts = {}
+    for target in TARGETS:
+        if only in target.name:
+            begun = time.monotonic()
+            counts[target.name] = fuzz(target, max(1, round(inputs * target.share / shares)), seed)
+            told = "  ".join(f"{getattr(counts[target.name], kind):6d} {kind}" for kind in KINDS)
+            print(f"{target.name:32}{told}  {time.monotonic() - begun:7.1f} s", flush=True)
+            for failure, given in counts[target.name].failures.items():
+                print(f"    {failure}\n        {given}", flush=True)
+    return counts
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--inputs", type=int, default=10_000)
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--only", default="", help="targets with this in their name")
+    told = parser.parse_args()
+    counts = fuzz_all(told.inputs, told.seed, told.only).values()
+    sums = "  ".join(f"{sum(getattr(count, kind) for count in counts):6d} {kind}" for kind in KINDS)
+    print(f"{'all':32}{sums}")
+    sys.exit(1 if any(count.failed for count in counts) else 0)
+
+
+if __name__ == "__main__":
+    main()
