@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import atexit
 import faulthandler
+import shutil
 import signal
+import tempfile
 import traceback
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
 from types import FrameType
 from typing import Any, NoReturn
 
@@ -21,6 +26,8 @@ LIMIT = 30.0
 """Seconds that an input may take on a loaded machine; beyond thrice that the process ends with a traceback."""
 LONGEST = 4000
 """Characters of a message that somebody reads."""
+SHOWN = 600
+"""Characters of an input that are told."""
 KINDS = ("answers", "sentences", "tracebacks", "hangs", "wrong")
 
 
@@ -30,6 +37,14 @@ class Wrong(Exception):
 
 class TooLong(BaseException):
     """Raised out of what hangs."""
+
+
+@cache
+def scratch() -> Path:
+    """A folder for the files of an input, gone with this process."""
+    name = tempfile.mkdtemp(prefix="fuzz")
+    atexit.register(shutil.rmtree, name, ignore_errors=True)
+    return Path(name)
 
 
 @dataclass(frozen=True)
@@ -61,7 +76,7 @@ class Count:
     def add(self, kind: str, told: str = "", given: object = None) -> None:
         setattr(self, kind, getattr(self, kind) + 1)
         if told:
-            self.failures.setdefault(f"{kind}: {told}", repr(given)[:LONGEST])
+            self.failures.setdefault(f"{kind}: {told}", repr(given)[:SHOWN])
 
 
 def fuzz(target: Target, inputs: int, seed: int) -> Count:
@@ -97,7 +112,7 @@ def _asked(target: Target, given: Any) -> tuple[str, str]:
         return "answers", ""
     except UserError as error:
         sound = str(error).isprintable() and len(str(error)) < LONGEST
-        return ("sentences", "") if sound else ("wrong", f"no sentence to print: {str(error)[:80]!r}")
+        return ("sentences", "") if sound else ("wrong", "a sentence that is too long, or not to be printed")
     except Wrong as error:
         return "wrong", str(error)
     except TooLong:

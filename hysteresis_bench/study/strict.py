@@ -12,7 +12,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
 
-from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.errors import UserError, nearest, printable
 
 
 class Strict(BaseModel):
@@ -113,8 +113,8 @@ LONGEST = 500
 
 
 def shown(text: str) -> str:
-    """Text that a terminal can print: control characters as their escapes, cut at LONGEST."""
-    plain = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    """Text that a terminal can print, cut at LONGEST."""
+    plain = printable(text)
     return plain if len(plain) <= LONGEST else f"{plain[:LONGEST]} ..."
 
 
