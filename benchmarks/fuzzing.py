@@ -18,10 +18,10 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.fuzz import measurements, simulations
+from benchmarks.fuzz import measurements, model_files, rewritten, simulations
 from benchmarks.fuzz.target import KINDS, Count, Target, fuzz
 
-TARGETS: tuple[Target, ...] = (*measurements.TARGETS, *simulations.TARGETS)
+TARGETS: tuple[Target, ...] = (*measurements.TARGETS, *rewritten.TARGETS, *model_files.TARGETS, *simulations.TARGETS)
 
 
 def fuzz_all(inputs: int, seed: int, only: str = "") -> dict[str, Count]:
