@@ -18,10 +18,11 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.fuzz import measurements, model_files, rewritten, simulations
-from benchmarks.fuzz.target import KINDS, Count, Target, fuzz
+from benchmarks.fuzz import measurements, model_files, rewritten, simulations, study_files  # noqa: E402
+from benchmarks.fuzz.target import KINDS, Count, Target, fuzz  # noqa: E402
 
-TARGETS: tuple[Target, ...] = (*measurements.TARGETS, *rewritten.TARGETS, *model_files.TARGETS, *simulations.TARGETS)
+READ = (measurements, rewritten, model_files, study_files, simulations)
+TARGETS: tuple[Target, ...] = tuple(target for module in READ for target in module.TARGETS)
 
 
 def fuzz_all(inputs: int, seed: int, only: str = "") -> dict[str, Count]:
