@@ -117,6 +117,17 @@ def test_outputs_replace_nothing(here):
     assert (here / "good.csv").read_bytes() != own
 
 
+@pytest.mark.parametrize("kept", ["model.json", "diagnosis.json", "closing.json"])
+def test_a_diagnosis_replaces_nothing_of_another_command(here, kept):
+    (here / "out").mkdir()
+    (here / "out" / kept).write_text("kept", encoding="utf-8")
+    if kept == "closing.json":  # the diagnosis at the end of a study
+        (here / "out" / "diagnosis.json").write_text("kept", encoding="utf-8")
+        (here / "out" / "diagnosis.html").write_text("kept", encoding="utf-8")
+    assert "not this command's own" in told("diagnose", "good.csv", "--model", "polynomial", "--out", "out")
+    assert (here / "out" / kept).read_text(encoding="utf-8") == "kept"
+
+
 def test_a_report_that_is_kept_is_not_begun_anew(here):
     (here / "kept").mkdir()
     (here / "kept" / "report.html").write_text("kept", encoding="utf-8")
