@@ -18,10 +18,10 @@ from pathlib import Path
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from benchmarks.fuzz import measurements, model_files, rewritten, simulations, study_files  # noqa: E402
-from benchmarks.fuzz.target import KINDS, Count, Target, fuzz  # noqa: E402
+from benchmarks.fuzz import folders, measurements, model_files, rewritten, simulations, study_files
+from benchmarks.fuzz.target import KINDS, Count, Target, fuzz
 
-READ = (measurements, rewritten, model_files, study_files, simulations)
+READ = (measurements, rewritten, model_files, study_files, folders, simulations)
 TARGETS: tuple[Target, ...] = tuple(target for module in READ for target in module.TARGETS)
 
 

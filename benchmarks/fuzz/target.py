@@ -113,6 +113,8 @@ def _asked(target: Target, given: Any) -> tuple[str, str]:
     except UserError as error:
         sound = str(error).isprintable() and len(str(error)) < LONGEST
         return ("sentences", "") if sound else ("wrong", "a sentence that is too long, or not to be printed")
+    except OSError:  # the command line tells it in a sentence
+        return "sentences", ""
     except Wrong as error:
         return "wrong", str(error)
     except TooLong:
