@@ -5,7 +5,7 @@ STUDY  ?= studies/sma.toml
 NEWEST ?=
 BIN    := .venv/bin
 
-.PHONY: install study test test-newest docs benchmark torture clean
+.PHONY: install study test test-newest docs benchmark torture fuzz clean
 
 install: .venv/installed
 
@@ -32,6 +32,10 @@ benchmark: .venv/installed-test
 # About ten minutes: bad trials, kills of the runner and of its workers.
 torture: .venv/installed-test
 	$(BIN)/python benchmarks/torture.py --dask
+
+# About half an hour: 10 000 inputs to everything that is read, and to every model and effect.
+fuzz: .venv/installed-test
+	$(BIN)/python benchmarks/fuzzing.py
 
 clean:
 	rm -rf .venv .venv-newest site .pytest_cache .ruff_cache .mypy_cache .hypothesis
