@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from benchmarks.fuzz.measurements import CELLS, Rows, table, written
 from benchmarks.fuzz.target import Target, Wrong, scratch
 from hysteresis_bench.cli import USER_AT_FAULT, main
+from hysteresis_bench.data.csv_files import is_number
 from hysteresis_bench.errors import UserError
 
 MODEL = {
@@ -170,6 +171,8 @@ def ask(given: dict[str, Any]) -> None:
         raise Wrong(f"{way}: answered")
     if way == "scaled" and SCALES[given["column"]][given["unit"]] != 1.0 and "was converted to" not in said:
         raise Wrong(f"{way}: not told")
+    if way == "odd cell" and is_number(given["cell"]):
+        return  # another measurement
     columns = ["time [s]", "input [V]", "output [um]"]
     if list(found.columns[:3]) != columns or not np.allclose(found[columns], expected[columns], rtol=1e-9, atol=1e-12):
         raise Wrong(f"{way}: other numbers")

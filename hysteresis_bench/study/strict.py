@@ -94,7 +94,7 @@ def _leave_out(content: dict[str, Any], location: tuple[int | str, ...]) -> None
             return
         else:
             break
-    whole_table = isinstance(found, dict) and isinstance(location[-1], int)
+    whole_table = isinstance(found, dict) and len(location) == 2 and isinstance(location[-1], int)  # of a [[key]]
     if holder is not None and key in holder and not whole_table:
         del holder[key]
 
