@@ -6,7 +6,7 @@ NEWEST ?=
 SUBJECTS ?= effects bouc_wen free_energy kernels resources evidence start_up runner
 BIN    := .venv/bin
 
-.PHONY: install study test test-newest docs benchmark torture clean
+.PHONY: install study test test-newest docs benchmark torture fuzz clean
 
 install: .venv/installed
 
@@ -33,6 +33,10 @@ benchmark: .venv/installed-test
 # About ten minutes: bad trials, kills of the runner and of its workers.
 torture: .venv/installed-test
 	$(BIN)/python benchmarks/torture.py --dask
+
+# About half an hour: 10 000 inputs to everything that is read, and to every model and effect.
+fuzz: .venv/installed-test
+	$(BIN)/python benchmarks/fuzzing.py
 
 clean:
 	rm -rf .venv .venv-newest site .pytest_cache .ruff_cache .mypy_cache .hypothesis

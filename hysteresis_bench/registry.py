@@ -231,4 +231,4 @@ def _fits(value: Any, expected: Any) -> bool:
     if isinstance(value, bool):
         return bool in options
     allowed = tuple(option for option in options if isinstance(option, type))
-    return isinstance(value, allowed) or (float in allowed and isinstance(value, int))
+    return isinstance(value, allowed) or (float in allowed and isinstance(value, int) and abs(value) < 2**1023)

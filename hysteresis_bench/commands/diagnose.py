@@ -8,6 +8,9 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.outputs import check_folder, force_option
+from hysteresis_bench.commands.terminal.console import say_notes
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -31,6 +34,7 @@ SHOWN = 8
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@force_option
 def diagnose(
     data: Sequence[Path],
     model: str,
@@ -45,23 +49,27 @@ def diagnose(
     jobs: int | None,
     out: Path | None,
     seed: int,
+    force: bool,
 ) -> None:
     """Find what the model lacks in DATA.csv ...: the missing effect, the error before and after."""
     from rich.console import Console
 
     from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
-    from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+    from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
-    from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
+    from hysteresis_bench.report.diagnosis.page import FILE, write_diagnosis_page
 
+    folder = out or Path(f"{data[0].stem}-diagnosis")
+    check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     dataset = load(*data, held_out=held_out)
     laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws)
     found = find(dataset, model, effects, options=options)
     console = Console(soft_wrap=False)
+    say_notes(console, dataset.notes)
     print_diagnosis(found, console)
-    path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
+    path = write_diagnosis(folder, found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
     page = write_diagnosis_page(path.parent)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)

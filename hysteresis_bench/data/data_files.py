@@ -28,7 +28,7 @@ LONGEST = 200
 KEEP_FAULTS = 8
 """Faults told of one file; a broken column has thousands."""
 LARGEST, SHORTEST = 1e100, 1e-100
-"""Largest number and shortest step of time that can be squared and summed."""
+"""Largest number, and shortest step of time or range of an input, that can be squared and summed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,21 +123,16 @@ def _records(path: Path, output_needed: bool) -> Dataset:
     faults: list[str] = []
     records = []
     for run, rows in samples.items():
-        numbers = {name: values[rows] for name, values in columns.numbers.items()}
+        name = path.stem if columns.runs is None else f"{path.stem}:{run}"
+        numbers = {column: values[rows] for column, values in columns.numbers.items()}
         marks = numbers.pop(HISTORY, np.zeros(len(rows)))
-        record = Record(
-            numbers.pop("time"),
-            numbers.pop("input"),
-            numbers.pop("output", None),
-            name=path.stem if columns.runs is None else f"{path.stem}:{run}",
-            units=columns.units,
-            columns=numbers,
-            history=int(np.count_nonzero(marks)),
-        )
-        faults += _record_faults(record, columns.lines[rows], to_fit=output_needed)
-        if not np.array_equal(marks, np.arange(len(rows)) < record.history) or record.history == len(rows):
-            faults.append(f'record {record.name}, column "{HISTORY}": 1 for leading samples, 0 for what is scored.')
-        records.append(record)
+        history = int(np.count_nonzero(marks))
+        faults += _record_faults(name, numbers, columns.lines[rows], to_fit=output_needed)
+        if not np.array_equal(marks, np.arange(len(rows)) < history) or history == len(rows):
+            faults.append(f'record {name}, column "{HISTORY}": 1 for leading samples, 0 for what is scored.')
+        if not faults:
+            measured = (numbers.pop("time"), numbers.pop("input"), numbers.pop("output", None))
+            records.append(Record(*measured, name=name, units=columns.units, columns=numbers, history=history))
     if faults:
         raise UserError(str(path), faults[:KEEP_FAULTS])
     return Dataset(tuple(records))
@@ -188,13 +183,13 @@ def _number_fault(cells: pd.Series, bad: Array) -> str:
     return f'row {cells.index[bad[0]]}, column "{cells.name}": {shown} {why}{more}.'
 
 
-def _record_faults(record: Record, lines: Array, to_fit: bool) -> list[str]:
-    if record.time.size < 2:
-        return [f"record {record.name} has {record.time.size} sample; at least 2 are needed."]
-    faults = time_faults(record.time, lines)
-    if to_fit and np.ptp(record.input) == 0:
+def _record_faults(name: str, numbers: Mapping[str, Array], lines: Array, to_fit: bool) -> list[str]:
+    if lines.size < 2:
+        return [f"record {name} has {lines.size} sample; at least 2 are needed."]
+    faults = time_faults(numbers["time"], lines)
+    if to_fit and np.ptp(numbers["input"]) < SHORTEST:
         faults.append(
-            f'record {record.name}, column "input": constant at {record.input[0]:g}; nothing can be identified '
+            f'record {name}, column "input": constant at {numbers["input"][0]:g}; nothing can be identified '
             f"from an input that does not move."
         )
     return faults
