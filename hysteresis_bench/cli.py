@@ -10,6 +10,7 @@ from rich.console import Console
 from rich.markup import escape
 
 from hysteresis_bench.commands.control import control
+from hysteresis_bench.commands.data.check import check
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.measure import measure
@@ -51,5 +52,18 @@ def main() -> None:
     and find what the model lacks."""
 
 
-for command in (check_plugin, control, diagnose, fit, list_plugins, measure, merge, new_plugin, predict, report, run):
+for command in (
+    check,
+    check_plugin,
+    control,
+    diagnose,
+    fit,
+    list_plugins,
+    measure,
+    merge,
+    new_plugin,
+    predict,
+    report,
+    run,
+):
     main.add_command(command)

@@ -8,9 +8,13 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.terminal.console import say_notes
+
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
 
 SHOWN = 8
@@ -19,6 +23,7 @@ SHOWN = 8
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
@@ -32,6 +37,7 @@ SHOWN = 8
 @click.option("--seed", type=int, default=0, show_default=True)
 def diagnose(
     data: Sequence[Path],
+    layout: Layout,
     model: str,
     held_out: Sequence[str],
     effects: Sequence[str],
@@ -44,7 +50,7 @@ def diagnose(
     out: Path | None,
     seed: int,
 ) -> None:
-    """Find what the model lacks in DATA.csv ...: the missing effect, the error before and after."""
+    """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
     from rich.console import Console
 
     from hysteresis_bench import diagnose as find
@@ -53,10 +59,11 @@ def diagnose(
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
-    dataset = load(*data, held_out=held_out)
+    dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
+    say_understood(console, dataset)
+    say_notes(console, dataset.notes)
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms)
     found = find(dataset, model, effects, options=options)
-    console = Console(soft_wrap=False)
     print_diagnosis(found, console)
     path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
