@@ -11,6 +11,7 @@ from rich.markup import escape
 
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.data.check import check
+from hysteresis_bench.commands.data.export import export
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.measure import measure
@@ -57,6 +58,7 @@ for command in (
     check_plugin,
     control,
     diagnose,
+    export,
     fit,
     list_plugins,
     measure,
