@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from hysteresis_bench.control.comparison import Comparison as ControlComparison
+    from hysteresis_bench.data.layout import Layout as Layout
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
     from hysteresis_bench.diagnosis.laws.comparison import Comparison
     from hysteresis_bench.diagnosis.question import DiagnosisOptions as DiagnosisOptions
@@ -30,28 +31,35 @@ for _package in ("control", "fit"):
     import_module(f"{__name__}.{_package}")
 
 
-_OPTIONS = {"FitOptions": "fit.fitting", "DiagnosisOptions": "diagnosis.question", "RunOptions": "study.run"}
+_OPTIONS = {
+    "Layout": "data.layout",
+    "FitOptions": "fit.fitting",
+    "DiagnosisOptions": "diagnosis.question",
+    "RunOptions": "study.run",
+}
 
 if not TYPE_CHECKING:
 
     def __getattr__(name: str) -> Any:
-        """The options of `fit` and `diagnose`, imported when they are first asked for."""
+        """The options of the functions below, imported when they are first asked for."""
         if name in _OPTIONS:
             return getattr(import_module(f"{__name__}.{_OPTIONS[name]}"), name)
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
-def load(*files: Path | str, held_out: Sequence[str] = ()) -> Dataset:
-    """Data CSV files as one data set, in the units of the first record that states them; `notes` tell of conversions.
+def load(*files: Path | str, held_out: Sequence[str] = (), layout: Layout | None = None) -> Dataset:
+    """Data files as one data set, in the units of the first record that states them; `notes` tell of conversions.
 
-    files : CSV with the columns time, input, output, units in brackets
+    files : text, .xlsx, .mat, .npz or .h5 with the columns time, input, output, units in brackets
+    layout : what the files do not say, such as Layout(input="Voltage", output="Displacement", rate=1000.0)
     held_out : names of records (a file's stem, with ":run" where there is a run column) that are not fitted
     Raises UserError naming file, row and column.
     """
     from hysteresis_bench.data.data_files import read_data
+    from hysteresis_bench.data.layout import AS_THEY_SAY
     from hysteresis_bench.errors import UserError
 
-    dataset = read_data([Path(file) for file in files])
+    dataset = read_data([Path(file) for file in files], layout=layout or AS_THEY_SAY)
     try:
         dataset = dataset.split(held_out)
     except ValueError as error:
@@ -150,20 +158,22 @@ def compare(
     return compare_laws(dataset, models, effects, options=options)
 
 
-def predict(model: FittedModel | Path | str, *files: Path | str) -> Dataset:
-    """The records of data CSV files, in a fitted model's units, with their output replaced by its prediction.
+def predict(model: FittedModel | Path | str, *files: Path | str, layout: Layout | None = None) -> Dataset:
+    """The records of data files, in a fitted model's units, with their output replaced by its prediction.
 
     What prepared the fit is done again (a closed loop is repeated as often as there), and `notes` tell it.
 
     model : a fitted model, or the path of its model.json
-    files : CSV with the columns time and input; an output is not needed
+    files : with the columns time and input; an output is not needed;  layout : as of `load`
     Raises UserError naming what is missing or wrong in the model's file, or file, row and column of the data.
     """
     from hysteresis_bench.data.data_files import read_data
+    from hysteresis_bench.data.layout import AS_THEY_SAY
     from hysteresis_bench.fit.model_file import FittedModel, read_model
 
     fitted = model if isinstance(model, FittedModel) else read_model(Path(model))
-    return fitted.predict(read_data([Path(file) for file in files], output_needed=False, units=fitted.units))
+    read = [Path(file) for file in files]
+    return fitted.predict(read_data(read, output_needed=False, units=fitted.units, layout=layout or AS_THEY_SAY))
 
 
 def control(

@@ -9,6 +9,8 @@ import click
 
 from hysteresis_bench.commands.compare import compare
 from hysteresis_bench.commands.control import control
+from hysteresis_bench.commands.data.check import check
+from hysteresis_bench.commands.data.export import export
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.measure import measure
@@ -54,10 +56,12 @@ def main() -> None:
 
 
 COMMANDS = (
+    check,
     check_plugin,
     compare,
     control,
     diagnose,
+    export,
     fit,
     list_plugins,
     measure,

@@ -170,6 +170,20 @@ class Effect(ABC):
         return self
 
 
+@dataclass(frozen=True)
+class Part:
+    """A fitted plugin as it goes on by one sample, behind an entry point of the group `hysteresis_bench.exports`:
+    a function part(plugin, parameters by name, timed) in a module that has `law`, or `before` and `after`.
+
+    constants, state : what these functions find in p, and the length of s;  invertible : `inverse` may be called
+    The function returns None for a part that changes nothing, and raises ValueError with why it cannot be exported.
+    """
+
+    constants: tuple[float, ...] = ()
+    state: int = 0
+    invertible: bool = False
+
+
 class Objective(Protocol):
     """What an optimizer sees: a metered loss on the unit box. Every answer is finite.
 

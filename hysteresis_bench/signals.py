@@ -140,12 +140,14 @@ class Dataset:
 
     hidden : what a virtual rig hid in its data, by name; empty for measurements
     notes : what was done to the records when they were read or predicted, a sentence each
+    understood : how each record was read, a row of a table each, by heading
     """
 
     records: tuple[Record, ...]
     held_out_names: tuple[str, ...] = ()
     hidden: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    understood: tuple[Mapping[str, str], ...] = ()
 
     @property
     def fitted(self) -> tuple[Record, ...]:
@@ -202,4 +204,5 @@ def joined(*datasets: Dataset) -> Dataset:
         raise ValueError(f"two records are both named {doubled[0]!r}; names must differ")
     hidden = {key: value for dataset in datasets for key, value in dataset.hidden.items()}
     held_out = tuple(name for dataset in datasets for name in dataset.held_out_names)
-    return Dataset(records, held_out, hidden, tuple(note for dataset in datasets for note in dataset.notes))
+    notes = tuple(note for dataset in datasets for note in dataset.notes)
+    return Dataset(records, held_out, hidden, notes, tuple(row for one in datasets for row in one.understood))

@@ -16,7 +16,7 @@ FLOORS = [
     ["diagnosis_study"],
     ["diagnosis"],
     ["study"],
-    ["control"],
+    ["control", "inspection", "export"],
     ["fit"],
     ["stats"],
     ["compose"],

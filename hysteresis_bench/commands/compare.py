@@ -4,15 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes
+
+if TYPE_CHECKING:
+    from hysteresis_bench.data.layout import Layout
 
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@data_options
 @click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Registered models.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act around every law; may be repeated.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
@@ -26,6 +32,7 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_notes
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-laws.")
 def compare(
     data: Sequence[Path],
+    layout: Layout,
     models: str,
     effects: Sequence[str],
     held_out: Sequence[str],
@@ -38,7 +45,7 @@ def compare(
     force: bool,
     out: Path | None,
 ) -> None:
-    """Fit every law to DATA.csv ... and rank them by what they did not see, beside a polynomial without memory."""
+    """Fit every law to DATA ... and rank them by what they did not see, beside a polynomial without memory."""
     from hysteresis_bench import compare as compare_laws
     from hysteresis_bench import load
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
@@ -46,12 +53,12 @@ def compare(
 
     folder = out or Path(f"{data[0].stem}-laws")
     check_folder(folder, FILES, FILE, data, force)
-    dataset = load(*data, held_out=held_out)
+    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
+    say_understood(console, dataset)
+    say_notes(console, dataset.notes)
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle)
     names = () if models == "all" else tuple(name.strip() for name in models.split(","))
     found = compare_laws(dataset, names, effects, options=options)
-    console = plain_console()
-    say_notes(console, dataset.notes)
     print_comparison(found, console)
     page = write_comparison(folder, found, data)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)

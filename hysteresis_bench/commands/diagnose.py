@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.terminal.console import say_notes
 
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
 
 SHOWN = 8
@@ -22,6 +24,7 @@ SHOWN = 8
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@data_options
 @click.option("--model", default="", help="A registered model; default: the law is found from the data.")
 @click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Where the law is sought.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
@@ -37,6 +40,7 @@ SHOWN = 8
 @force_option
 def diagnose(
     data: Sequence[Path],
+    layout: Layout,
     model: str,
     models: str,
     held_out: Sequence[str],
@@ -51,7 +55,7 @@ def diagnose(
     seed: int,
     force: bool,
 ) -> None:
-    """Find what the model lacks in DATA.csv ...: the missing effect, the error before and after."""
+    """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
     from rich.console import Console
 
     from hysteresis_bench import diagnose as find
@@ -62,12 +66,12 @@ def diagnose(
 
     folder = out or Path(f"{data[0].stem}-diagnosis")
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
-    dataset = load(*data, held_out=held_out)
+    dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
+    say_understood(console, dataset)
+    say_notes(console, dataset.notes)
     laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws)
     found = find(dataset, model, effects, options=options)
-    console = Console(soft_wrap=False)
-    say_notes(console, dataset.notes)
     print_diagnosis(found, console)
     path = write_diagnosis(folder, found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 import click
 
+from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes
 from hysteresis_bench.errors import UserError
+
+if TYPE_CHECKING:
+    from hysteresis_bench.data.layout import Layout
 
 Value = TypeVar("Value")
 
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
 @click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter.")
@@ -37,6 +42,7 @@ Value = TypeVar("Value")
 )
 def fit(
     data: Sequence[Path],
+    layout: Layout,
     model: str,
     effects: Sequence[str],
     bounds: Sequence[str],
@@ -52,7 +58,7 @@ def fit(
     force: bool,
     out: Path | None,
 ) -> None:
-    """Fit a model to DATA.csv ...: parameters with standard errors, model.json, a figure, a page."""
+    """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page."""
     from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
@@ -60,7 +66,9 @@ def fit(
 
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
-    dataset = load(*data, held_out=held_out)
+    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
+    say_understood(console, dataset)
+    say_notes(console, dataset.notes)
     default = FitOptions()
     options = FitOptions(
         optimizer=optimizer or default.optimizer,
@@ -72,8 +80,6 @@ def fit(
         settle=settle,
     )
     fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
-    console = plain_console()
-    say_notes(console, dataset.notes)
     print_fit(fitted, console)
     page = write_fit(folder, fitted, data)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)

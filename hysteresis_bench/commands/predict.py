@@ -4,31 +4,47 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_file, force_option
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
+
+if TYPE_CHECKING:
+    from hysteresis_bench.data.layout import Layout
 
 
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path))
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
+@data_options
+@click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw it: .pdf, .svg or .png.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
 @force_option
-def predict(model: Path, data: Sequence[Path], out: Path, force: bool) -> None:
-    """Predict the output of DATA.csv ... with a fitted MODEL.json, prepared as for its fit."""
+def predict(model: Path, data: Sequence[Path], layout: Layout, plot: Path | None, out: Path, force: bool) -> None:
+    """Predict the output of DATA ... with a fitted MODEL.json, prepared as for its fit."""
     check_file(out, (model, *data), force)
     from hysteresis_bench.data.data_files import read_data, write_csv
     from hysteresis_bench.fit.model_file import read_model
+    from hysteresis_bench.report.shared.papers import check_figure, draw_prediction
+
+    if plot is not None:
+        check_file(plot, (model, *data), force)
+        check_figure(plot)
 
     fitted, console = read_model(model), plain_console()
-    measured = read_data(data, output_needed=False, units=fitted.units)
+    measured = read_data(data, output_needed=False, units=fitted.units, layout=layout)
     predicted = fitted.predict(measured)
     write_csv(out, predicted)
+    say_understood(console, measured)
     say_notes(console, predicted.notes)
     unit = "" if fitted.units["output"] == "1" else f" {fitted.units['output']}"
     for record, error in fitted.errors(measured).items():
         told = f"relative RMS {error.relative_rms:.2%}, largest error {error.max_error:.2%}"
         console.print(f"{record}: RMSE {error.rmse:.4g}{unit}, {told}", highlight=False, markup=False)
     say_path(console, "prediction", out)
+    if plot is not None:
+        draw_prediction(plot, fitted.in_own_units(measured), predicted)
+        say_path(console, "figure", plot)

@@ -6,13 +6,10 @@ A text that begins with = + - or @ and is no number gets an apostrophe before it
 from __future__ import annotations
 
 import re
-import stat
 from collections.abc import Callable
 from pathlib import Path
 
 import pandas as pd
-
-from hysteresis_bench.errors import UserError
 
 FORMULA = re.compile(r"'*[=+\-@\t\r]")
 GUARDED = re.compile(r"''*[=+\-@\t\r]")
@@ -35,22 +32,6 @@ def is_number(text: str) -> bool:
     except ValueError:
         return False
     return True
-
-
-def read_cells(path: Path) -> pd.DataFrame:
-    """Every cell as it stands in the file, as text, the header too; rows counted as a text editor counts lines.
-
-    Raises UserError for what is no file or no CSV.
-    """
-    try:
-        if not stat.S_ISREG(path.stat().st_mode):
-            raise UserError(str(path), "is no file that can be read twice, but a folder, a pipe or a device.")
-        cells = pd.read_csv(path, header=None, dtype=str, keep_default_na=False, skip_blank_lines=False).fillna("")
-    except (OSError, ValueError) as error:  # pandas' own errors are ValueErrors
-        reason = getattr(error, "strerror", None) or (str(error).strip().splitlines() or ["it is not text"])[0]
-        raise UserError(str(path), f"cannot be read as CSV: {reason}.") from None
-    cells.index += 1
-    return cells
 
 
 def read_table(path: Path) -> pd.DataFrame:

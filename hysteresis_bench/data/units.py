@@ -41,6 +41,11 @@ def same_unit(one: str, other: str) -> bool:
     return first is not None and second is not None and bool(first == second)
 
 
+def is_unit(text: str) -> bool:
+    """Whether a text is a unit that is known, or says that there is none."""
+    return text.strip().rstrip(".") in ARBITRARY or _parsed(text) is not None
+
+
 def converted(values: Array, unit: str, wanted: str) -> Array:
     """Values given in `unit`, in the wanted one; the same array where both are one unit.
 

@@ -76,7 +76,7 @@ class FittedModel:
         `notes` tell what was done; leading samples that the fit did not score are history.
         Raises UserError where units do not convert, or where the response is not finite.
         """
-        system, values, known = self.system, self.values[:, None], self._in_own_units(dataset)
+        system, values, known = self.system, self.values[:, None], self.in_own_units(dataset)
 
         def predicted(record: Record) -> Record:
             ready = self.preparation(record)
@@ -93,7 +93,7 @@ class FittedModel:
 
     def errors(self, dataset: Dataset) -> dict[str, Accuracy]:
         """How well each measured record is predicted, prepared as for the fit; records without output are left out."""
-        known = self._in_own_units(dataset)
+        known = self.in_own_units(dataset)
         return {
             record.name: accuracy(self.system, [self.preparation(record)], self.values)
             for record in known.records
@@ -104,7 +104,8 @@ class FittedModel:
     def _output_unit(self) -> dict[str, str]:
         return {"output": self.units["output"]}
 
-    def _in_own_units(self, dataset: Dataset) -> Dataset:
+    def in_own_units(self, dataset: Dataset) -> Dataset:
+        """The records in the model's units. Raises UserError where units do not convert."""
         return in_units(dataset, self.units, "the records", "the model's")
 
 

@@ -1,0 +1,1 @@
+"""Commands on data files, and the options of all commands that read them."""

@@ -1,0 +1,1 @@
+"""Files of oscilloscopes, loggers, spreadsheets and other programs, as sheets of cells with a header."""

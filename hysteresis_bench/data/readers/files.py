@@ -1,0 +1,189 @@
+"""Data files of any kind that is known as sheets: text, spreadsheets, and files of arrays."""
+
+from __future__ import annotations
+
+import stat
+from collections import Counter
+from collections.abc import Mapping
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench.data.layout import Layout
+from hysteresis_bench.data.readers.sheet import TOP, Sheet, top_of, units_in
+from hysteresis_bench.data.readers.text import read_text
+from hysteresis_bench.errors import UserError, nearest
+
+OLD = {".xls": "save it as .xlsx", ".ods": "save it as .xlsx", ".parquet": "save it as CSV", ".tdms": "save it as CSV"}
+MOST_COLUMNS = 64
+"""Columns of an array beyond which it is no table of samples."""
+
+
+def read_sheets(path: Path, layout: Layout) -> list[Sheet]:
+    """Every sheet or variable of a file that holds columns; the one that the layout names, where it names one.
+
+    Raises UserError for what cannot be read, or holds none.
+    """
+    try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise UserError(str(path), "is no file that can be read twice, but a folder, a pipe or a device.")
+        sheets = _read(path, layout)
+    except OSError as error:
+        reason = error.strerror or str(error).split("\n")[0]
+        raise UserError(str(path), f"cannot be read as {_kind(path)}: {reason}.") from None
+    if layout.sheet is not None:
+        known = [sheet.name for sheet in sheets]
+        sheets = [sheet for sheet in sheets if sheet.name == layout.sheet]
+        if not sheets:
+            raise UserError(str(path), f'no sheet or variable "{layout.sheet}". {nearest(layout.sheet, known)}')
+    if not sheets:
+        raise UserError(str(path), "holds no columns of numbers.")
+    return sheets
+
+
+def _kind(path: Path) -> str:
+    return {".xlsx": "a spreadsheet", ".xlsm": "a spreadsheet", ".mat": "MATLAB data", ".h5": "HDF5"}.get(
+        path.suffix.lower(), "arrays" if path.suffix.lower() in (".npz", ".npy") else "CSV"
+    )
+
+
+def _read(path: Path, layout: Layout) -> list[Sheet]:
+    suffix = path.suffix.lower()
+    if suffix in OLD:
+        raise UserError(str(path), f"files of this kind are not read; {OLD[suffix]}.")
+    if suffix in (".xlsx", ".xlsm"):
+        return _spreadsheet(path, layout)
+    if suffix in (".npz", ".npy"):
+        return _of_arrays(_numpy(path))
+    if suffix == ".mat":
+        return _of_arrays(_matlab(path))
+    if suffix in (".h5", ".hdf5", ".hdf"):
+        return _of_arrays(_hdf5(path))
+    return [read_text(path, layout)]
+
+
+def _library(name: str, path: Path) -> Any:
+    """A library that is an extra. Raises UserError where it is not installed."""
+    try:
+        return import_module(name)
+    except ImportError:
+        wanted = f'needs the package {name}; install it with: pip install "hysteresis-bench[files]".'
+        raise UserError(str(path), wanted) from None
+
+
+def _spreadsheet(path: Path, layout: Layout) -> list[Sheet]:
+    openpyxl = _library("openpyxl", path)
+    try:
+        book = openpyxl.load_workbook(path, read_only=True, data_only=True)
+        pages = [(page.title, [list(row) for row in page.iter_rows(values_only=True)]) for page in book.worksheets]
+        book.close()
+    except Exception as error:  # a damaged archive raises errors of any type
+        raise UserError(str(path), f"cannot be read as a spreadsheet: {str(error).splitlines()[0]}.") from None
+    found = []
+    for title, values in pages:
+        rows = [["" if cell is None else str(cell) for cell in row] for row in values]
+        filled = [index for index, row in enumerate(rows) if any(cell.strip() for cell in row)]
+        if not filled:
+            continue
+        top = top_of([rows[index] for index in filled[:TOP]], (layout.time, layout.input, layout.output))
+        lines = filled[top.data :]
+        cells = pd.DataFrame([rows[index] for index in lines], index=[index + 1 for index in lines])
+        header = () if top.header is None else tuple(rows[filled[top.header]])
+        units = () if top.units is None else units_in(rows[filled[top.units]])
+        found.append(Sheet(title if len(pages) > 1 else "", header, units, cells))
+    return found
+
+
+def _numpy(path: Path) -> Mapping[str, Any]:
+    try:
+        stored = np.load(path, allow_pickle=False)
+        return {"": stored} if isinstance(stored, np.ndarray) else {name: stored[name] for name in stored.files}
+    except OSError:
+        raise
+    except Exception as error:  # a damaged archive raises errors of any type
+        raise UserError(str(path), f"cannot be read as arrays: {error}.") from None
+
+
+def _matlab(path: Path) -> Mapping[str, Any]:
+    from scipy.io import loadmat
+
+    try:
+        stored = loadmat(path, squeeze_me=True, struct_as_record=False, chars_as_strings=True)
+    except NotImplementedError:  # version 7.3 is HDF5
+        return _hdf5(path)
+    except OSError:
+        raise
+    except Exception as error:
+        raise UserError(str(path), f"cannot be read as MATLAB data: {str(error).splitlines()[0]}.") from None
+    return {name: _plain(value) for name, value in stored.items() if not name.startswith("__")}
+
+
+def _plain(value: Any) -> Any:
+    """A MATLAB structure as a mapping."""
+    if hasattr(value, "_fieldnames"):
+        return {name: _plain(getattr(value, name)) for name in value._fieldnames}
+    return value
+
+
+def _hdf5(path: Path) -> Mapping[str, Any]:
+    h5py = _library("h5py", path)
+
+    def contents(group: Any) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for name, item in group.items():
+            if isinstance(item, h5py.Group):
+                found[name] = contents(item)
+            elif item.dtype.names:
+                found[name] = {field: item[field] for field in item.dtype.names}
+            else:
+                unit = next((item.attrs[key] for key in ("units", "unit") if key in item.attrs), "")
+                text = unit.decode() if isinstance(unit, bytes) else str(unit)
+                found[f"{name} [{text}]" if text else name] = item[()]
+        return found
+
+    try:
+        with h5py.File(path, "r") as file:
+            return contents(file)
+    except OSError as error:
+        raise UserError(str(path), f"cannot be read as HDF5: {str(error).splitlines()[0]}.") from None
+
+
+def _of_arrays(stored: Mapping[str, Any], prefix: str = "") -> list[Sheet]:
+    """Columns of one length as a sheet; a table of numbers and a structure as a sheet of its own."""
+    columns, sheets = {}, []
+    for name, value in stored.items():
+        whole = f"{prefix}{name}"
+        if isinstance(value, Mapping):
+            sheets += _of_arrays(value, f"{whole}/")
+            continue
+        array = np.asarray(value)
+        if array.dtype.names:
+            sheets += _of_arrays({field: array[field] for field in array.dtype.names}, f"{whole}/" if whole else "")
+            continue
+        if array.dtype.kind not in "fiub":
+            continue
+        array = np.squeeze(array)
+        if array.ndim == 1 and array.size > 1:
+            columns[name] = array.astype(float)
+        elif array.ndim == 2 and min(array.shape) <= MOST_COLUMNS:
+            notes = ("its rows are the columns",) if array.shape[0] < array.shape[1] else ()
+            upright = array.T if notes else array
+            sheets.append(Sheet(whole, (), (), _indexed(pd.DataFrame(upright.astype(float))), notes=notes))
+    if columns:
+        length = Counter(array.size for array in columns.values()).most_common(1)[0][0]
+        left = [name for name, array in columns.items() if array.size != length]
+        kept = {name: array for name, array in columns.items() if array.size == length}
+        notes = (f"left out, because of another length: {', '.join(left)}",) if left else ()
+        frame = _indexed(pd.DataFrame(kept))
+        headers = tuple(frame.columns)
+        frame.columns = pd.RangeIndex(len(headers))
+        sheets.insert(0, Sheet(prefix.rstrip("/"), headers, (), frame, notes=notes))
+    return sheets
+
+
+def _indexed(frame: pd.DataFrame) -> pd.DataFrame:
+    frame.index = pd.RangeIndex(1, len(frame) + 1)
+    return frame

@@ -1,0 +1,167 @@
+"""A sheet's columns as finite numbers: gaps left out and told, everything else that is no number a fault."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.csv_files import unguarded
+from hysteresis_bench.data.layout import ROLES, Layout
+from hysteresis_bench.data.readers.columns import KEEP_FAULTS, Named, named
+from hysteresis_bench.data.readers.numbers import is_missing, number, seconds
+from hysteresis_bench.data.readers.sheet import Sheet
+from hysteresis_bench.errors import UserError
+
+HISTORY = "history"
+"""A column of 1 for leading samples that are not scored, 0 for the others."""
+LARGEST = 1e100
+"""Largest number that can be squared and summed."""
+GAPS = 0.2
+"""Share of rows without a number that are gaps; more of them are a fault of the file."""
+SHOWN = 4
+"""Gaps that a sentence lists."""
+
+
+@dataclass(frozen=True, eq=False)
+class Columns:
+    """A sheet with some columns of finite numbers.
+
+    lines : (samples,) where each sample stands in the file;  units : the ones that the header states
+    sheet : its name, empty where a file has but one;  understood : what was read, by the heading of a table
+    notes : what was left out, a sentence each
+    """
+
+    lines: Array
+    numbers: Mapping[str, Array]
+    units: Mapping[str, str]
+    runs: Sequence[str] | None
+    sheet: str = ""
+    understood: Mapping[str, str] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()
+
+
+def numbers_of(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> Columns:
+    """The numeric columns of a sheet, the required ones among them. Raises UserError naming row and column."""
+    found = named(where, sheet, layout, required)
+    cells = found.cells
+    if cells.dtypes.map(pd.api.types.is_numeric_dtype).all():
+        filled = np.ones(len(cells), dtype=bool)
+    else:
+        filled = (cells != "").any(axis=1).to_numpy()
+    cells = cells[filled]
+    if not len(cells):
+        raise UserError(where, "has a header but no samples.")
+    numbers, empty, faults, notes = _numbers(cells, sheet.decimal, required)
+    units = dict(found.units)
+    if "time" in required and "time" in cells and not np.isfinite(numbers["time"]).any():
+        since = seconds(cells["time"])
+        if since is not None:
+            numbers["time"], empty["time"], units["time"] = since, np.zeros(since.size, dtype=bool), "s"
+            faults = [fault for fault in faults if 'column "time"' not in fault]
+            notes.append("times of day as seconds after the first")
+    if layout.rate is not None:
+        numbers["time"], units["time"] = np.arange(len(cells)) / layout.rate, "s"
+    kept = ~np.any([empty[name] for name in empty] or [np.zeros(len(cells), dtype=bool)], axis=0)
+    if faults:
+        raise UserError(where, faults[:KEEP_FAULTS])
+    lines = cells.index.to_numpy()
+    clauses = (*sheet.notes, *notes)
+    told = [f"{where}: {', '.join(clauses)}."] if clauses else []
+    gaps = _gaps(kept)
+    if gaps:
+        told.append(f"{where}: {_gap_words(gaps, lines)}")
+    return Columns(
+        lines[kept],
+        {name: values[kept] for name, values in numbers.items()},
+        units,
+        [unguarded(run) for run in cells["run"][kept].map(str)] if "run" in cells else None,
+        sheet.name,
+        _understood(found, units, layout, gaps),
+        tuple(told),
+    )
+
+
+def _numbers(
+    cells: pd.DataFrame, decimal: str, required: Sequence[str]
+) -> tuple[dict[str, Array], dict[str, Array], list[str], list[str]]:
+    """Numbers by column; where the required ones are missing; faults; what was left out, as clauses."""
+    numbers: dict[str, Array] = {}
+    empty: dict[str, Array] = {}
+    faults: list[str] = []
+    holes: list[str] = []
+    for name in cells.columns.drop("run", errors="ignore"):
+        values = np.array([number(cell, decimal) for cell in cells[name]])
+        good = np.abs(values) <= LARGEST  # False for what is no number, too
+        needed = name in required or name in ROLES
+        if not (needed or np.mean(good) > 0.5):  # a further column of text, such as a remark, is left out
+            continue
+        numbers[name] = values
+        if np.all(good):
+            continue
+        missing = ~good & np.array([is_missing(cell) for cell in cells[name]])
+        few = np.mean(missing) <= GAPS
+        if needed and few:
+            empty[name] = missing
+        elif not needed and np.any(missing):
+            holes.append(name)
+            del numbers[name]
+            continue
+        wrong = np.nonzero(~good & ~missing if needed and few else ~good)[0]
+        if wrong.size:
+            faults.append(_fault(cells[name], wrong, decimal))
+    return numbers, empty, faults, [f"left out, because cells are empty: {', '.join(holes)}"] if holes else []
+
+
+def _fault(cells: pd.Series, bad: Array, decimal: str) -> str:
+    text = str(cells.iloc[bad[0]]).strip()
+    shown = f'"{text[:40]}"' if text else "empty"
+    too_large = math.isfinite(number(cells.iloc[bad[0]], decimal))
+    why = f"is too large to work with, beyond {LARGEST:g}" if too_large else "is not a finite number"
+    more = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
+    helps = ""
+    if not too_large and decimal == "." and number(text, ",") == number(text, ","):
+        helps = " Is it a decimal comma? Say so with --decimal ,"
+    elif not too_large and cells.name == "time":
+        helps = " Give --rate HZ in place of the time."
+    return f'row {cells.index[bad[0]]}, column "{cells.name}": {shown} {why}{more}.{helps}'
+
+
+def _gaps(kept: Array) -> list[tuple[int, int]]:
+    """First and last sample of every gap."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([True], kept, [True])).astype(int)))
+    return [(int(low), int(high) - 1) for low, high in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _gap_words(gaps: Sequence[tuple[int, int]], lines: Array) -> str:
+    rows = [f"{lines[low]}" if low == high else f"{lines[low]}-{lines[high]}" for low, high in gaps]
+    samples = sum(high - low + 1 for low, high in gaps)
+    more = f" and {len(gaps) - SHOWN} more" if len(gaps) > SHOWN else ""
+    where = ", ".join(rows[:SHOWN]) + more
+    one = samples == 1
+    return (
+        f"{samples} row{'' if one else 's'} without a number left out ({'row' if one else 'rows'} {where}); "
+        f"across a gap the input is taken to have gone straight on."
+    )
+
+
+def _understood(
+    found: Named, units: Mapping[str, str], layout: Layout, gaps: Sequence[tuple[int, int]]
+) -> dict[str, str]:
+    """How the columns were read, by the heading of a table."""
+
+    def told(role: str) -> str:
+        if role == "time" and layout.rate is not None:
+            return f"{layout.rate:g} Hz as given"
+        source = found.sources.get(role)
+        if source is None:
+            return ""
+        unit = units.get(role)
+        plain = source in (role, f"{role} [{unit}]")
+        return f"{'' if plain else source + ', '}{'in ' + unit if unit else 'no unit'}"
+
+    return {**{role: told(role) for role in ROLES}, "gaps": str(len(gaps))}

@@ -1,0 +1,166 @@
+"""Text files as a sheet: encoding, comments, delimiter, header, decimal mark."""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import io
+import re
+from collections import Counter
+from collections.abc import Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from hysteresis_bench.data.layout import Layout
+from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark, looks_like_a_number
+from hysteresis_bench.data.readers.sheet import LONGEST, TOP, Sheet, top_of, units_in
+from hysteresis_bench.errors import UserError
+
+COMMENT = re.compile(r"\s*(#|%|//|!)")
+CANDIDATES = ("\t", ";", "|", ",", " ")
+"""In the order in which they are believed where two do as well."""
+NAMES = {"\t": "tabs", ";": "semicolons", "|": "bars", ",": "commas", " ": "blanks"}
+MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
+
+
+def read_text(path: Path, layout: Layout) -> Sheet:
+    """The sheet of a text file. Raises UserError for what is no text, no table, or ambiguous."""
+    text, notes = _decoded(path)
+    lines = text.splitlines()
+    if not any(line.strip() for line in lines):
+        raise UserError(str(path), "cannot be read as CSV: No columns to parse from file.")
+    comments = [index for index, line in enumerate(lines) if COMMENT.match(line) and not _is_header(line, layout)]
+    plain = [index for index in range(len(lines)) if lines[index].strip() and index not in set(comments)]
+    head = plain[:TOP]
+    mark = layout.mark or _delimiter([lines[index] for index in head])
+    rows = [_cells(lines[index], mark) for index in head]
+    top = top_of(rows, (layout.time, layout.input, layout.output))
+    header = () if top.header is None else tuple(rows[top.header])
+    units = () if top.units is None else units_in(rows[top.units])
+    first = plain[top.data] if top.data < len(plain) else len(lines)
+    if not header:
+        header = _header_in_comment(lines, [index for index in comments if index < first], mark, rows, top.data)
+    trailing = max(len(_cells(lines[index], mark, trim=False)) - len(_cells(lines[index], mark)) for index in head)
+    cells = _table(path, lines, first, set(comments), mark, width=len(header) and len(header) + trailing)
+    above = top.data - (top.header is not None) - (top.units is not None)
+    if mark != ",":
+        notes.append(f"{NAMES[mark]} between cells")
+    if above:
+        notes.append(f"{above} line{'s' if above > 1 else ''} above the header left out")
+    decimal = _decimal(path, cells, layout, unquoted=mark == "," and '"' not in text)
+    if decimal == ",":
+        notes.append("decimal commas")
+    return Sheet("", header, units, cells, decimal, tuple(notes))
+
+
+def _decoded(path: Path) -> tuple[str, list[str]]:
+    """The text, and notes on how it was encoded."""
+    raw = path.read_bytes()
+    for mark, encoding in MARKS:
+        if raw.startswith(mark):
+            try:
+                return raw.decode(encoding), [] if encoding == "utf-8-sig" else ["UTF-16 text"]
+            except UnicodeDecodeError:
+                raise UserError(str(path), "cannot be read as CSV: its text is damaged.") from None
+    if b"\0" in raw:
+        raise UserError(str(path), "cannot be read as CSV: it is not text. Known: text, .xlsx, .mat, .npz, .npy, .h5.")
+    try:
+        return raw.decode("utf-8"), []
+    except UnicodeDecodeError:
+        return raw.decode("cp1252", errors="replace"), ["read as Windows text (cp1252), since it is not UTF-8"]
+
+
+def _is_header(line: str, layout: Layout) -> bool:
+    """A header may begin with a comment's mark where the user names a column so."""
+    named = [name for name in (layout.time, layout.input, layout.output) if name]
+    return any(COMMENT.match(name) and line.strip().startswith(name) for name in named)
+
+
+def _cells(line: str, mark: str, trim: bool = True) -> list[str]:
+    """A line's cells; trim : leave out what is empty behind a trailing delimiter."""
+    if mark == " ":
+        return line.split()
+    try:
+        cells = next(csv.reader([line], delimiter=mark), [])
+    except csv.Error:
+        cells = line.split(mark)
+    return cells[:-1] if trim and len(cells) > 1 and not cells[-1].strip() else cells
+
+
+def _delimiter(lines: Sequence[str]) -> str:
+    """The mark by which most cells of most lines are numbers; a comma where none is better."""
+    best, most = ",", 0.0
+    for mark in CANDIDATES:
+        rows = [_cells(line[: 50 * LONGEST], mark) for line in lines]
+        width = Counter(map(len, rows)).most_common(1)[0][0]
+        if width < 2:
+            continue
+        share = sum(sum(map(looks_like_a_number, row)) / width for row in rows if len(row) == width)
+        if share / len(rows) > most + 1e-9:
+            best, most = mark, share / len(rows)
+    if most > 0.0:
+        return best
+    counts = {mark: lines[0].count(mark) for mark in (",", *CANDIDATES[:3])}  # no numbers at all: the header decides
+    return max(counts, key=lambda mark: counts[mark])
+
+
+def _header_in_comment(
+    lines: Sequence[str], comments: Sequence[int], mark: str, rows: Sequence[Sequence[str]], data: int
+) -> tuple[str, ...]:
+    """The last comment before the numbers, where it has a name for every column."""
+    if not comments or data >= len(rows):
+        return ()
+    bare = COMMENT.sub("", lines[comments[-1]], count=1).strip()
+    for cells in (_cells(bare, mark), re.split(r"\s{2,}|\t", bare), bare.split()):
+        if len(cells) == len(rows[data]) and not any(looks_like_a_number(cell) for cell in cells):
+            return tuple(cell.strip() for cell in cells)
+    return ()
+
+
+def _table(path: Path, lines: Sequence[str], first: int, comments: set[int], mark: str, width: int) -> pd.DataFrame:
+    """The cells from line `first` on, indexed by the lines they stand in; comments and blank lines left out."""
+    if first >= len(lines):
+        return pd.DataFrame(columns=range(width), dtype=str)
+    body = ["" if index in comments else lines[index] for index in range(first, len(lines))]
+    names = mark.join(["x"] * width) if width else None  # pandas takes the width from the first line
+    text = "\n".join([*([names] if names else []), *body]) + "\n"
+    options = {"sep": r"\s+"} if mark == " " else {"sep": mark}
+    try:
+        cells = pd.read_csv(
+            io.StringIO(text), header=None, dtype=str, keep_default_na=False, skip_blank_lines=False, **options
+        ).fillna("")
+    except (ValueError, OSError) as error:  # pandas' own errors are ValueErrors
+        raise UserError(str(path), _said(error, first - bool(names), mark)) from None
+    cells.index += first + 1 - bool(names)
+    return cells.iloc[1:] if names else cells
+
+
+def _said(error: Exception, before: int, mark: str) -> str:
+    """What pandas says, its lines counted as in the file."""
+    reason = (str(error).strip().splitlines() or ["it is not text"])[0]
+    reason = re.sub(r"(in line |at row )(\d+)", lambda found: f"{found[1]}{int(found[2]) + before}", reason)
+    found = re.search(r"Expected (\d+) fields .* saw (\d+)", reason)
+    told = f"cannot be read as CSV: {reason}."
+    if found and mark == "," and int(found[2]) == 2 * int(found[1]):
+        told += " If these are decimal commas, put other delimiters between the cells, such as semicolons."
+    elif found:
+        told += " Where the cells are parted by another mark, say so with --delimiter."
+    return told
+
+
+def _decimal(path: Path, cells: pd.DataFrame, layout: Layout, *, unquoted: bool) -> str:
+    if layout.decimal or unquoted:
+        return layout.decimal or "."
+    marked = [
+        (int(row), cell)
+        for column in cells
+        for row, cell in cells[column][cells[column].str.contains(",", regex=False)].items()
+    ]
+    if not marked:
+        return "."
+    everything = ((int(row), cell) for column in cells for row, cell in cells[column].items())
+    try:
+        return decimal_mark(everything)
+    except Ambiguous as error:
+        raise UserError(str(path), str(error)) from None

@@ -1,0 +1,1 @@
+"""A fitted model as a single file that needs nothing of this package."""

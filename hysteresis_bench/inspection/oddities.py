@@ -1,0 +1,223 @@
+"""What is odd about records, a sentence each with what would help: a hysteresis model believes every reversal it sees.
+
+Thresholds are ours: what they let through changes a fit by less than the measurement's own noise on the rigs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.units import seconds_in
+from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.kernels.turning_points import turning_points
+from hysteresis_bench.signals import Record
+
+TURN = 0.05
+"""Share of the input's range beyond which a reversal is meant."""
+SMALLEST = 1e-6
+"""Share of the range that is rounding."""
+FALSE, RESTING, OPEN, DRIFTING, JITTER, NOISY = 3, 0.05, 0.03, 0.03, 0.05, 0.002
+"""False reversals for a meant one; shares of samples, of the range, of the median step, of the range."""
+FLAT = 5
+"""Samples in a row at the largest output that are no accident."""
+CORNERS = 20
+"""Samples of a cycle below which corners are cut."""
+ALIKE = 0.1
+"""Relative difference up to which amplitudes and frequencies are one."""
+
+
+def oddities(records: Sequence[Record]) -> tuple[str, ...]:
+    """Sentences on these records, each with what would help; empty where nothing is odd."""
+    looks: tuple[Callable[[Record], str], ...] = (
+        _false_reversals,
+        _input_noise,
+        _plateau,
+        _open,
+        _drift,
+        _clipping,
+        _aliasing,
+        _jitter,
+    )
+    found = [said for record in records if record.time.size > 3 for look in looks if (said := look(record))]
+    return (*found, *_alike(records))
+
+
+def turns(record: Record, share: float = TURN) -> Array:
+    """Where the input turns by more than a share of its range, rising indices."""
+    values = np.ascontiguousarray(record.input, dtype=float)
+    return np.asarray(turning_points(values, share * float(np.ptp(values))))
+
+
+def amplitudes(record: Record) -> Array:
+    """Half the way of every half cycle between two reversals, (half cycles,), unit of the input."""
+    return np.asarray(np.abs(np.diff(record.input[turns(record)])) / 2.0)
+
+
+def frequency(record: Record) -> float:
+    """Of the meant reversals, cycles a unit of time; NaN where there are fewer than two."""
+    at = record.time[turns(record)]
+    return float(0.5 / np.median(np.diff(at))) if at.size > 1 else float("nan")
+
+
+def _false_reversals(record: Record) -> str:
+    every, meant = turns(record, SMALLEST).size, turns(record).size
+    if every - meant <= FALSE * max(meant, 1):
+        return ""
+    return (
+        f"{record.name}: the input turns {every - meant} times by less than {TURN:.0%} of its range, beside {meant} "
+        f"meant reversals. A model of hysteresis takes each for a small loop: take the commanded input with --input "
+        f"NAME in place of the measured one, or smooth it."
+    )
+
+
+def _input_noise(record: Record) -> str:
+    """Fourth differences leave of a smooth drive nothing, and of white noise its size times the root of 70."""
+    difference = np.diff(record.input, 4)
+    spread = float(np.ptp(record.input)) or 1.0
+    noise = 1.4826 * float(np.median(np.abs(difference))) / np.sqrt(70.0) / spread if difference.size else 0.0
+    cycle = 2.0 * record.time.size / max(turns(record).size, 1)
+    if noise <= NOISY or cycle < CORNERS:
+        return ""
+    return (
+        f"{record.name}: the input has noise of {noise:.1%} of its range, which a model cannot tell from a drive: take "
+        f"the commanded input with --input NAME, or smooth it."
+    )
+
+
+def _plateau(record: Record) -> str:
+    still = np.abs(np.diff(record.input)) <= SMALLEST * (float(np.ptp(record.input)) or 1.0)
+    runs = [run for run in _runs(still) if run[1] - run[0] > FLAT]
+    if sum(high - low for low, high in runs) <= RESTING * record.time.size:
+        return ""
+    low, high = _longest(still)
+    unit = record.units.get("time", "s")
+    lasts = float(record.time[high] - record.time[low])
+    where = f"{record.name}: the input rests for {lasts:.4g} {unit} from {float(record.time[low]):.4g} {unit}"
+    if low == 0:
+        length = lasts / seconds_in(unit, 1.0)
+        return f"{where}, its beginning: --skip {length:.4g} leaves it out of the score."
+    return f"{where}: what the output does meanwhile is creep or noise, and a law that knows no time cannot follow it."
+
+
+def _open(record: Record) -> str:
+    """The last cycle between two reversals; of a single cycle, its ends."""
+    at, spread = turns(record), float(np.ptp(record.output)) if record.output is not None else 0.0
+    several = at.size > 3 and _one(amplitudes(record))
+    if record.output is None or spread == 0.0 or not (several or (at.size < 3 and is_closed(record))):
+        return ""
+    first, last = (at[-3], at[-1]) if several else (0, -1)
+    gap = abs(float(record.output[last] - record.output[first])) / spread
+    if gap <= OPEN:
+        return ""
+    return (
+        f"{record.name}: the last loop does not close: the input comes back, the output {gap:.0%} of its range "
+        f"away. Where the loop had "
+        f"settled in the test, --settle repeats it until a model has, too; where it had not, --skip SECONDS leaves the "
+        f"first cycle out of the score."
+    )
+
+
+def _drift(record: Record) -> str:
+    """The middle of the output, cycle by cycle of the input."""
+    upper = turns(record)[::2]
+    if record.output is None or upper.size < 4:
+        return ""
+    middles = np.array([float(np.mean(record.output[a:b])) for a, b in pairwise(upper)])
+    at = np.arange(middles.size, dtype=float)
+    slope, level = np.polyfit(at, middles, 1)
+    left = float(np.std(middles - slope * at - level))
+    moved = abs(float(slope)) * (middles.size - 1)
+    share = moved / (float(np.ptp(record.output)) or 1.0)
+    if share <= DRIFTING or moved <= 3.0 * left or not _one(amplitudes(record)):
+        return ""
+    return (
+        f"{record.name}: the middle of the output drifts by {share:.0%} of its range in {middles.size} cycles: fit "
+        f"with the effect drift or record-drift, or --skip SECONDS of a beginning that had not settled."
+    )
+
+
+def _clipping(record: Record) -> str:
+    if record.output is None:
+        return ""
+    steps = np.abs(np.diff(record.output))
+    moving = steps[steps > 0]
+    spread = float(np.ptp(record.output))
+    if not moving.size or float(np.median(moving)) > spread / 50.0:
+        return ""
+    for edge, word in ((record.output.max(), "largest"), (record.output.min(), "smallest")):
+        low, high = _longest(record.output == edge)
+        resting = np.ptp(record.input[low:high]) <= TURN * np.ptp(record.input) / FLAT
+        if high - low >= FLAT and not resting:
+            return (
+                f"{record.name}: the output stays at its {word} value, {float(edge):.4g}, for {high - low} samples "
+                f"while the input moves: a sensor or amplifier at its limit? Measure with a larger range; a fit "
+                f"believes the flat."
+            )
+    return ""
+
+
+def _aliasing(record: Record) -> str:
+    at = turns(record)
+    if at.size < 2:
+        return ""
+    cycle = 2.0 * float(np.median(np.diff(at)))
+    if cycle >= CORNERS:
+        return ""
+    return (
+        f"{record.name}: only {cycle:.0f} samples a cycle of the input: corners are cut, and faster movements appear "
+        f"as slower ones (aliasing). Take at least {CORNERS}; where the rate was given with --rate, is it right?"
+    )
+
+
+def _jitter(record: Record) -> str:
+    steps = np.diff(record.time)
+    middle = float(np.median(steps))
+    near = steps[steps < 1.5 * middle]  # a gap is told where the file is read
+    share = float(np.std(near)) / middle if near.size > 2 else 0.0
+    if not record.timed or share <= JITTER:
+        return ""
+    return (
+        f"{record.name}: steps of time vary by {share:.0%} (standard deviation): where the samples were taken evenly "
+        f"and only their times are rough, give --rate HZ."
+    )
+
+
+def _alike(records: Sequence[Record]) -> list[str]:
+    """What all records together do not excite."""
+    found = []
+    sizes = [amplitudes(record) for record in records]
+    every = np.concatenate(sizes) if sizes else np.zeros(0)
+    if every.size > 1 and _one(every):
+        found.append(
+            f"one amplitude only ({np.median(every):.4g}): what small loops do, and whether the law is right for them, "
+            f"cannot be seen. Add a record with growing or nested amplitudes."
+        )
+    rates = np.array([frequency(record) for record in records if record.timed])
+    rates = rates[np.isfinite(rates)]
+    if rates.size and _one(rates):
+        found.append(
+            f"one frequency only (about {np.median(rates):.3g} a unit of time): lags, delays and eddy currents cannot "
+            f"be told apart, nor told from the law. Add a record at another speed."
+        )
+    return found
+
+
+def _one(values: Array) -> bool:
+    """Whether all of them are alike; the first and the last may be parts."""
+    inner = values[1:-1] if values.size > 4 else values
+    return bool(np.ptp(inner) <= ALIKE * np.max(np.abs(inner)))
+
+
+def _longest(holds: Array) -> tuple[int, int]:
+    """First and one past the last sample of the longest run."""
+    return max(_runs(holds), key=lambda run: run[1] - run[0], default=(0, 0))
+
+
+def _runs(holds: Array) -> list[tuple[int, int]]:
+    """First and one past the last sample of every run."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([0], np.asarray(holds, dtype=int), [0]))))
+    return [(int(low), int(high)) for low, high in zip(edges[::2], edges[1::2], strict=True)]

@@ -1,0 +1,224 @@
+"""Exported files say what `predict` says, sample by sample, and do without this package."""
+
+import ctypes
+import importlib.util
+import shutil
+import subprocess
+import sys
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hysteresis_bench import registry
+from hysteresis_bench.cli import main
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.export.write import exported
+from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
+from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.signals import Dataset, Record
+
+TIME = np.linspace(0.0, 2.0, 1500) + 0.0002 * np.sin(np.arange(1500))
+INPUT = 3.0 * np.sin(2 * np.pi * 1.5 * TIME) * (0.3 + TIME / 2.0) + 0.4 * np.sin(2 * np.pi * 11.0 * TIME)
+LAWS = {
+    "bouc-wen": {"alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},
+    "hammerstein": {
+        "alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2, "b": 5e4, "c_over_m": 60.0, "k_over_m": 4e4,
+    },
+    "jiles-atherton": {"alpha": 1e-4, "a": 1.1, "k": 0.9, "M_s": 1.3e3, "c": 0.2},
+    "jiles-atherton-clamped": {"alpha": 1e-4, "a": 1.1, "k": 0.9, "M_s": 1.3e3, "c": 0.2},
+    "free-energy": {"M_R": 1.0, "eta": 4.0, "H_c": 1.1, "b": 1.0, "c": 0.35, "alpha": 0.6},
+}  # fmt: skip
+EFFECTS = {
+    "asymmetry": {"curvature": 0.03},
+    "backlash": {"half_width": 0.3},
+    "bias": {"offset": 0.7},
+    "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
+    "drift": {"rate": -0.3},
+    "fatigue": {"rate": 0.01},
+    "input-lag": {"time_constant": 0.01},
+    "output-lag": {"time_constant": 0.02},
+    "periodic-disturbance": {"cosine": 0.1, "sine": -0.2, "frequency": 7.0},
+    "rayleigh-hysteresis": {"coefficient": 0.02},
+    "record-drift": {},
+    "record-offset": {},
+    "resonance": {"period": 0.02, "damping": 0.2},
+    "saturation": {"inverse_level": 0.25, "sharpness": 3.0},
+    "transport-delay": {"delay": 0.0133},
+}
+SETTINGS = {"record-offset": {"default": 0.25}}
+
+
+def fitted(law="bouc-wen", effects=(), preparation=None, settings=None, unit="s", **change):
+    values = {**LAWS[law], **change}
+    values |= {f"{name}.{key}": value for name in effects for key, value in EFFECTS[name].items()}
+    estimates = {name: Estimate(value, None, "1") for name, value in values.items()}
+    own = {name: SETTINGS.get(name, {}) for name in effects}
+    units = {"time": unit, "input": "V", "output": "um"}
+    model = FittedModel(law, settings or {}, tuple(effects), own, units, estimates)
+    return replace(model, preparation=preparation) if preparation else model
+
+
+def predicted(model):
+    record = Record(TIME, INPUT, None, units=model.units)
+    return model.predict(Dataset((record,))).records[0].output
+
+
+@pytest.fixture(scope="module")
+def compiler():
+    found = shutil.which("cc") or shutil.which("gcc")
+    if found is None:
+        pytest.skip("no C compiler")
+    return found
+
+
+def compiled(model, folder, compiler):
+    """step over all samples of the C file, and the inverse where there is one, and seconds of the first."""
+    source = folder / "model.c"
+    loop = """
+void all(int n, const double *t, const double *u, double *y) {
+    static hysteresis_model model; hysteresis_start(&model);
+    for (int i = 0; i < n; i++) y[i] = hysteresis_step(&model, t[i], u[i]);
+}
+"""
+    text = exported(model, "c")
+    if "hysteresis_inverse(hysteresis_model" in text:
+        loop += """
+void back(int n, const double *y, double *u) {
+    static hysteresis_model model; hysteresis_start(&model);
+    for (int i = 0; i < n; i++) u[i] = hysteresis_inverse(&model, y[i]);
+}
+"""
+    assert "malloc" not in text
+    source.write_text(text + loop, encoding="utf-8")
+    library = folder / f"model{len(list(folder.iterdir()))}.so"  # a library of one path is loaded once
+    flags = ["-std=c99", "-O2", "-Wall", "-Wno-unused", "-Werror", "-shared", "-fPIC"]
+    subprocess.run([compiler, *flags, str(source), "-o", str(library), "-lm"], check=True)
+    return ctypes.CDLL(str(library))
+
+
+def called(function, *arrays):
+    out = np.empty(arrays[0].size)
+    pointers = [array.ctypes.data_as(ctypes.c_void_p) for array in (*arrays, out)]
+    function(ctypes.c_int(out.size), *pointers)
+    return out
+
+
+def python_module(text, folder):
+    path = folder / "model_alone.py"
+    path.write_text(text, encoding="utf-8")
+    spec = importlib.util.spec_from_file_location("model_alone", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def close(found, known, tolerance=1e-12):
+    np.testing.assert_allclose(found, known, rtol=0, atol=tolerance * float(np.max(np.abs(known))))
+
+
+CASES = {
+    **{law: (law, ()) for law in LAWS},
+    **{effect: ("bouc-wen", (effect,)) for effect in EFFECTS},
+    "a chain": ("bouc-wen", ("input-lag", "creep", "resonance", "bias")),
+    "another chain": ("free-energy", ("backlash", "asymmetry", "saturation", "transport-delay", "record-offset")),
+}
+
+
+@pytest.mark.parametrize("case", CASES)
+def test_c_and_python_say_what_predict_says(case, tmp_path, compiler):
+    model = fitted(*CASES[case])
+    known = predicted(model)
+    close(called(compiled(model, tmp_path, compiler).all, TIME, INPUT), known)
+    alone = python_module(exported(model, "python"), tmp_path)
+    state = alone.start()
+    close([alone.step(state, t, u) for t, u in zip(TIME.tolist(), INPUT.tolist(), strict=True)], known)
+
+
+def test_the_laws_and_effects_that_ship_are_tried_or_refused():
+    refused = {"free-energy-gma", "temperature-sensitivity", "description"}
+    ours = {name for kind in ("models", "effects") for name in registry.names(kind)
+            if registry.load(kind, name).distribution == "hysteresis-bench"}  # fmt: skip
+    assert refused <= ours
+    for name in ours - {*LAWS, *EFFECTS}:
+        model = FittedModel(name, {}, (), {}, {"time": "s", "input": "1", "output": "1"}, {})
+        around = replace(fitted(), effects=(name,), effect_settings={})
+        with pytest.raises(UserError, match="cannot be exported"):
+            exported(model if name in registry.names("models") else around, "c")
+
+
+def test_smoother_loops_to_what_the_kernels_promise(tmp_path, compiler):
+    model = fitted(settings={"n": 2.0})
+    close(called(compiled(model, tmp_path, compiler).all, TIME, INPUT), predicted(model), 1e-8)
+
+
+def test_preparation_is_repeated_and_an_index_is_no_time(tmp_path, compiler):
+    model = fitted("bouc-wen", ("input-lag", "bias"), Preparation(input_offset=0.5, flip=True))
+    close(called(compiled(model, tmp_path, compiler).all, TIME, INPUT), predicted(model))
+    index = fitted("hammerstein", ("input-lag", "drift"), unit="sample")
+    close(called(compiled(index, tmp_path, compiler).all, TIME, INPUT), predicted(index))
+
+
+def test_the_inverse_of_c_and_python(tmp_path, compiler):
+    model = fitted("bouc-wen", ("bias",), Preparation(input_offset=0.5, flip=True))
+    library, known = compiled(model, tmp_path, compiler), predicted(model)
+    wanted = known[0] + (known - known[0]) * 0.8
+    needed = called(library.back, wanted)
+    close(called(library.all, TIME, needed), wanted)
+    alone = python_module(exported(model, "python"), tmp_path)
+    state = alone.start()
+    close([alone.inverse(state, y) for y in wanted.tolist()], needed)
+
+
+def test_python_needs_nothing(tmp_path):
+    (tmp_path / "alone.py").write_text(exported(fitted("bouc-wen", tuple(EFFECTS)), "python"), encoding="utf-8")
+    code = "import sys; sys.path.insert(0, '.'); import alone; alone.step(alone.start(), 0.0, 1.0)"
+    code += "; assert 'numpy' not in sys.modules"
+    subprocess.run([sys.executable, "-I", "-c", code], cwd=tmp_path, check=True)
+
+
+def test_what_cannot_be_exported_says_so():
+    for model, words in (
+        (fitted(beta=-0.1), "has no bound"),
+        (FittedModel("polynomial", {}, (), {}, {"time": "s"}, {}), "model polynomial cannot be exported"),
+        (replace(fitted(), effects=("temperature-sensitivity",), effect_settings={}), "registers nothing for it"),
+        (replace(fitted(), effects=("eddy-current",), effect_settings={}), "acts inside the model's own equation"),
+    ):
+        with pytest.raises(UserError, match=words):
+            exported(model, "c")
+    with pytest.raises(UserError, match="no test runs it"):
+        exported(fitted(), "fmu")
+
+
+def test_c_is_fast_enough(tmp_path, compiler):
+    """At most twice the compiled kernels' time, in the same run, the best of several."""
+    model = fitted("bouc-wen", ("input-lag", "creep", "resonance"))
+    library = compiled(model, tmp_path, compiler)
+    t = np.linspace(0.0, 50.0, 100_000)
+    u = 3.0 * np.sin(2 * np.pi * t)
+    system, values, signal = model.system, model.values[:, None], Record(t, u, None).signal
+    system.simulate(signal, values)
+
+    def best(run):
+        taken = []
+        for _ in range(9):
+            before = time.perf_counter()
+            run()
+            taken.append(time.perf_counter() - before)
+        return min(taken)
+
+    assert best(lambda: called(library.all, t, u)) <= 2.0 * best(lambda: system.simulate(signal, values))
+
+
+def test_the_command(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_model(tmp_path / "model.json", fitted("bouc-wen", ("creep",)))
+    done = CliRunner().invoke(main, ["export", "model.json", "--to", "c"])
+    assert done.exit_code == 0, done.output
+    assert "It leaves out: creep" in " ".join(done.output.split())
+    assert (tmp_path / "model.c").is_file()
+    again = CliRunner().invoke(main, ["export", "model.json", "--to", "c"])
+    assert again.exit_code == 2
+    assert "is there already" in again.output

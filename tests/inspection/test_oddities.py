@@ -1,0 +1,61 @@
+"""What is odd about records is told, each by its sentence; a good pair of records is not scolded."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.inspection.oddities import oddities
+from hysteresis_bench.signals import Record
+
+TIME = np.arange(3000) / 1000.0
+
+
+def record(rate=2.0, name="loop", envelope=None, time=TIME):
+    size = 0.3 + time / time[-1] if envelope is None else envelope
+    phase = 2 * np.pi * rate * time
+    return Record(time, 5 * size * np.sin(phase), 2 * size * np.sin(phase - 0.2) + 0.2 * np.sin(0.2), name)
+
+
+def even(**change):
+    made = record(envelope=np.ones(TIME.size))
+    return replace(made, **{name: change_of(made) for name, change_of in change.items()})
+
+
+def noise(size):
+    return size * np.random.default_rng(0).standard_normal(TIME.size)
+
+
+def rested(values):
+    return np.concatenate([np.full(400, values[0]), values[:-400]])
+
+
+CASES = {
+    "a false reversal": (even(input=lambda r: r.input + noise(0.05)), "reversals. A model of hysteresis takes each"),
+    "noise": (even(input=lambda r: r.input + noise(0.05)), "noise of 0.5% of its range"),
+    "a plateau": (even(input=lambda r: np.where(np.abs(r.input) > 4.5, 4.5, r.input)), "the input rests for"),
+    "a late start": (even(input=lambda r: rested(r.input), output=lambda r: rested(r.output)), "--skip 0.4 leaves"),
+    "an open loop": (even(output=lambda r: r.output + 1.5 * TIME), "--settle repeats"),
+    "drift": (even(output=lambda r: r.output + 0.4 * TIME), "drifts by"),
+    "clipping": (even(output=lambda r: np.minimum(r.output, 1.5)), "stays at its largest value, 1.5, for"),
+    "aliasing": (record(1.0, time=np.arange(60) / 12.0), "only 12 samples a cycle"),
+    "jitter": (even(time=lambda r: TIME + 2e-4 * np.random.default_rng(1).random(TIME.size)), "--rate HZ"),
+    "one amplitude": (even(), "one amplitude only (5)"),
+    "one frequency": (record(), "one frequency only (about 2"),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_it_is_told(name):
+    odd, words = CASES[name]
+    said = oddities([odd])
+    assert any(words in one for one in said), said
+
+
+def test_good_records_are_not_scolded():
+    assert oddities([record(2.0, "slow"), record(6.0, "fast")]) == ()
+
+
+def test_a_record_without_output_or_movement_is_looked_at():
+    still = Record(TIME, np.zeros(TIME.size), None)
+    assert all("still" in one or "rests" in one or "frequency" not in one for one in oddities([still]))
