@@ -23,10 +23,10 @@ from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
-from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, Record
 
