@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.data.parameters import bounds_option, fix_option, pairs, values
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.terminal.console import say_notes
 
@@ -29,6 +30,8 @@ SHOWN = 8
 @click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Where the law is sought.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
+@bounds_option
+@fix_option
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
 @click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
@@ -45,6 +48,8 @@ def diagnose(
     models: str,
     held_out: Sequence[str],
     effects: Sequence[str],
+    bounds: Sequence[str],
+    fixed: Sequence[str],
     input_offset: float,
     flip: bool,
     skip: float,
@@ -71,7 +76,7 @@ def diagnose(
     say_notes(console, dataset.notes)
     laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws)
-    found = find(dataset, model, effects, options=options)
+    found = find(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
     print_diagnosis(found, console)
     path = write_diagnosis(folder, found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)

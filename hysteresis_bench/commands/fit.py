@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.data.parameters import bounds_option, fix_option, pairs, values
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes
-from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
-
-Value = TypeVar("Value")
 
 
 @click.command()
@@ -24,8 +22,8 @@ Value = TypeVar("Value")
 @data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
-@click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter.")
-@click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known.")
+@bounds_option
+@fix_option
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
@@ -79,38 +77,7 @@ def fit(
         skip=skip,
         settle=settle,
     )
-    fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
+    fitted = fit_model(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
     print_fit(fitted, console)
     page = write_fit(folder, fitted, data)
     console.print(f"page: {page}", highlight=False, soft_wrap=True)
-
-
-def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
-    """P=LO:HI ..."""
-
-    def interval(text: str) -> tuple[float, float]:
-        low, _, high = text.partition(":")
-        return float(low), float(high)
-
-    return _by_name(texts, interval, "--bounds", "PARAMETER=LOW:HIGH, such as a=0.1:10")
-
-
-def _values(texts: Sequence[str]) -> dict[str, float]:
-    """P=VALUE ..."""
-    return _by_name(texts, float, "--fix", "PARAMETER=VALUE, such as n=1")
-
-
-def _by_name(texts: Sequence[str], read: Callable[[str], Value], option: str, form: str) -> dict[str, Value]:
-    found: dict[str, Value] = {}
-    faults = []
-    for text in texts:
-        name, _, value = text.partition("=")
-        if name.strip() in found:
-            faults.append(f'"{name.strip()}" is given twice.')
-        try:
-            found[name.strip()] = read(value)
-        except ValueError:
-            faults.append(f'"{text}" should read {form}.')
-    if faults:
-        raise UserError(option, faults)
-    return found
