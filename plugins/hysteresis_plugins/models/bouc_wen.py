@@ -73,7 +73,10 @@ class BoucWen(Model):
         alpha, beta, gamma, d = self.parameters
         span = input_span(records)
         ratio = output_span(records) / span
-        unit = 1.0 / (span * output_span(records) ** (self.n - 1.0))
+        try:
+            unit = 1.0 / (span * output_span(records) ** (self.n - 1.0))
+        except ArithmeticError:  # a box that is told not to be finite
+            unit = np.inf
         return (
             alpha.within(0.0, 2.0),
             beta.within(0.03 * unit, 1000.0 * unit, "log"),
