@@ -25,7 +25,7 @@ FLOORS = [
     ["contracts", "data"],
     ["signals", "parameters"],
     ["errors", "kernels"],
-    ["arrays"],
+    ["arrays", "progress"],
 ]
 """From the roof down. Names on one floor may know each other."""
 

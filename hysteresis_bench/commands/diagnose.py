@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.terminal.console import say_notes
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -35,6 +37,7 @@ SHOWN = 8
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@open_option
 def diagnose(
     data: Sequence[Path],
     layout: Layout,
@@ -49,12 +52,14 @@ def diagnose(
     jobs: int | None,
     out: Path | None,
     seed: int,
+    open_page: bool,
 ) -> None:
     """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
     from rich.console import Console
 
     from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
@@ -63,12 +68,15 @@ def diagnose(
     say_understood(console, dataset)
     say_notes(console, dataset.notes)
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms)
-    found = find(dataset, model, effects, options=options)
+    folder = out or Path(f"{data[0].stem}-diagnosis")
+    kept = f"nothing was written to {folder}"
+    with told_when_stopped("diagnose", lambda: kept, "Run it again to begin anew."), steps_told("diagnose") as on_step:
+        found = find(dataset, model, effects, options=replace(options, on_step=on_step))
     print_diagnosis(found, console)
-    path = write_diagnosis(out or Path(f"{data[0].stem}-diagnosis"), found, data)
+    path = write_diagnosis(folder, found, data)
     console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
     page = write_diagnosis_page(path.parent)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+    say_page(console, page, open_page)
 
 
 def print_diagnosis(found: Diagnosis, console: Console) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -10,7 +11,8 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
-from hysteresis_bench.commands.terminal.console import plain_console, say_notes
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
 from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
@@ -34,6 +36,7 @@ Value = TypeVar("Value")
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@open_option
 @force_option
 @click.option(
     "--out",
@@ -55,12 +58,14 @@ def fit(
     seed: int,
     optimizer: str | None,
     budget: int | None,
+    open_page: bool,
     force: bool,
     out: Path | None,
 ) -> None:
     """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page."""
     from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
     from hysteresis_bench.report.fit.page import FILE
 
@@ -79,10 +84,13 @@ def fit(
         skip=skip,
         settle=settle,
     )
-    fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
+    kept = f"nothing was written to {folder}"
+    with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
+        options = replace(options, on_step=on_step)
+        fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
     print_fit(fitted, console)
     page = write_fit(folder, fitted, data)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+    say_page(console, page, open_page)
 
 
 def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:

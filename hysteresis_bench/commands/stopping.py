@@ -12,9 +12,11 @@ from typing import NoReturn
 
 from rich.console import Console
 
+AGAIN = "Run it again to continue."
+
 
 @contextmanager
-def told_when_stopped(study: Path, kept: Callable[[], str]) -> Iterator[None]:
+def told_when_stopped(what: Path | str, kept: Callable[[], str], again: str = AGAIN) -> Iterator[None]:
     """Ends with a sentence and the exit code that a shell gives: 130, 143. kept : what is not lost, as a clause"""
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
@@ -25,7 +27,7 @@ def told_when_stopped(study: Path, kept: Callable[[], str]) -> Iterator[None]:
         yield
     except KeyboardInterrupt as stopped:
         by = signal.Signals(stopped.args[0]) if stopped.args else signal.SIGINT
-        told = f"{study}: stopped by {by.name}; {kept()}. Run it again to continue."
+        told = f"{what}: stopped by {by.name}; {kept()}. {again}"
         Console(stderr=True, soft_wrap=True).print(told, highlight=False, markup=False)
         sys.exit(128 + by)
     finally:

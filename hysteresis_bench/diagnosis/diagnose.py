@@ -10,6 +10,7 @@ from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
 from hysteresis_bench.diagnosis.threads import single_threaded
+from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 
 
@@ -19,8 +20,11 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
 
     Raises UserError telling every fault at once.
     """
+    on_step = question.options.on_step
+    on_step(Step("the records"))
     prepared = prepare(dataset, question)
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
+    on_step(Step("before and after"))
     stages = settle_offset(prepared, found, question)
     return conclude(dataset, question, prepared, found, stages)

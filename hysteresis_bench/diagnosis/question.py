@@ -14,6 +14,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.progress import OnStep, quiet
 from hysteresis_bench.signals import Dataset
 
 FEWEST_SAMPLES = 40
@@ -29,6 +30,7 @@ class DiagnosisOptions:
     skip : seconds at the start of every record that are simulated and not scored
     settle : closed loops are repeated until they close before they are scored
     accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
+    on_step : called with where the diagnosis is
     """
 
     seed: int = 0
@@ -38,6 +40,7 @@ class DiagnosisOptions:
     skip: float = 0.0
     settle: bool = False
     accept_terms: bool = False
+    on_step: OnStep = field(default=quiet, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
