@@ -12,6 +12,8 @@ from rich.markup import escape
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.data.check import check
 from hysteresis_bench.commands.data.export import export
+from hysteresis_bench.commands.data.new_study import new_study
+from hysteresis_bench.commands.data.schema import schema
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.measure import measure
@@ -64,8 +66,10 @@ for command in (
     measure,
     merge,
     new_plugin,
+    new_study,
     predict,
     report,
     run,
+    schema,
 ):
     main.add_command(command)

@@ -11,6 +11,7 @@ FLOORS = [
     ["cli", "__main__", "__init__"],
     ["commands"],
     ["testing"],
+    ["schemas"],
     ["report"],
     ["study_diagnosis"],
     ["diagnosis_study"],

@@ -9,6 +9,7 @@ import click
 
 from hysteresis_bench.commands.outputs import check_file, check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ FILES = ("control.html", "control.csv", "responses.csv")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
 @click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw what --reference makes.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@json_option
 @open_option
 @force_option
 def control(
@@ -43,6 +45,7 @@ def control(
     out: Path | None,
     plot: Path | None,
     seed: int,
+    as_json: bool,
     open_page: bool,
     force: bool,
 ) -> None:
@@ -61,6 +64,8 @@ def control(
             raise UserError("control", "--plot draws what --reference makes; give it, too.")
         check_file(plot, [model, reference], force)
         check_figure(plot)
+    if as_json and (rig is None or reference is not None):
+        raise UserError("control", "--json tells the comparison on a --rig, and that alone.")
     if rig is None and reference is None:
         raise UserError("control", "give --rig NAME to compare controllers, or --reference CSV for a feed-forward.")
     fitted, console = read_model(model), Console(soft_wrap=False)
@@ -81,6 +86,10 @@ def control(
         ):
             comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed, on_step=on_step)
         page = write_control(folder, comparison, f"{fitted.model} ({model.stem})")
+        if as_json:
+            scores = comparison.scores.to_dict("records")
+            say_json({"scores": scores, "tuning": comparison.tuning, "warnings": comparison.warnings, "page": page})
+            return
         print_control(comparison, console)
         say_page(console, page, open_page)
 

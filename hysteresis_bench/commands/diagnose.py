@@ -11,6 +11,7 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option
 from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page
 
 if TYPE_CHECKING:
@@ -37,6 +38,7 @@ SHOWN = 8
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@json_option
 @open_option
 def diagnose(
     data: Sequence[Path],
@@ -52,6 +54,7 @@ def diagnose(
     jobs: int | None,
     out: Path | None,
     seed: int,
+    as_json: bool,
     open_page: bool,
 ) -> None:
     """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
@@ -65,17 +68,21 @@ def diagnose(
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
     dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
-    say_understood(console, dataset)
-    say_notes(console, dataset.notes)
+    if not as_json:
+        say_understood(console, dataset)
+        say_notes(console, dataset.notes)
     options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms)
     folder = out or Path(f"{data[0].stem}-diagnosis")
     kept = f"nothing was written to {folder}"
     with told_when_stopped("diagnose", lambda: kept, "Run it again to begin anew."), steps_told("diagnose") as on_step:
         found = find(dataset, model, effects, options=replace(options, on_step=on_step))
-    print_diagnosis(found, console)
     path = write_diagnosis(folder, found, data)
-    console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
     page = write_diagnosis_page(path.parent)
+    if as_json:
+        click.echo(path.read_text(encoding="utf-8"), nl=False)
+        return
+    print_diagnosis(found, console)
+    console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
     say_page(console, page, open_page)
 
 

@@ -12,6 +12,7 @@ import click
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
 from hysteresis_bench.errors import UserError
 
@@ -36,6 +37,7 @@ Value = TypeVar("Value")
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@json_option
 @open_option
 @force_option
 @click.option(
@@ -58,6 +60,7 @@ def fit(
     seed: int,
     optimizer: str | None,
     budget: int | None,
+    as_json: bool,
     open_page: bool,
     force: bool,
     out: Path | None,
@@ -72,8 +75,9 @@ def fit(
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
-    say_understood(console, dataset)
-    say_notes(console, dataset.notes)
+    if not as_json:
+        say_understood(console, dataset)
+        say_notes(console, dataset.notes)
     default = FitOptions()
     options = FitOptions(
         optimizer=optimizer or default.optimizer,
@@ -88,8 +92,13 @@ def fit(
     with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
         options = replace(options, on_step=on_step)
         fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
-    print_fit(fitted, console)
     page = write_fit(folder, fitted, data)
+    if as_json:
+        tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}
+        said = {"agreement": fitted.agreement, "warnings": fitted.warnings, "notes": fitted.notes}
+        say_json({"model": fitted.model.model, **tables, **said, "page": page})
+        return
+    print_fit(fitted, console)
     say_page(console, page, open_page)
 
 
