@@ -3,9 +3,10 @@ PYTHON ?= python3
 TRIALS ?= 3
 STUDY  ?= studies/sma.toml
 NEWEST ?=
+SUBJECTS ?= effects bouc_wen free_energy kernels resources evidence start_up runner
 BIN    := .venv/bin
 
-.PHONY: install study test test-newest docs benchmark torture clean
+.PHONY: install study test test-newest docs benchmark torture fuzz clean
 
 install: .venv/installed
 
@@ -25,13 +26,17 @@ test-newest: .venv/installed
 docs: .venv/installed-docs
 	$(BIN)/mkdocs build --strict --config-file docs/mkdocs.yml
 
+# Under ten minutes: ratios inside one run, each line held or missed.
 benchmark: .venv/installed-test
-	$(BIN)/python benchmarks/kernels.py
-	$(BIN)/python benchmarks/runner.py
+	for subject in $(SUBJECTS); do $(BIN)/python benchmarks/$$subject.py || exit; done
 
 # About ten minutes: bad trials, kills of the runner and of its workers.
 torture: .venv/installed-test
 	$(BIN)/python benchmarks/torture.py --dask
+
+# About half an hour: 10 000 inputs to everything that is read, and to every model and effect.
+fuzz: .venv/installed-test
+	$(BIN)/python benchmarks/fuzzing.py
 
 clean:
 	rm -rf .venv .venv-newest site .pytest_cache .ruff_cache .mypy_cache .hypothesis

@@ -5,16 +5,16 @@ python benchmarks/effects.py
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 
 import numpy as np
+from table import Line, fastest, show
 
 SAMPLES, PARTICLES, ROUNDS = 6000, 50, 60
 
 
-def rows() -> list[tuple[str, float, float]]:
-    """(kernel, its time over that of `bouc_wen` with a shared input, what is asked), the fastest of interleaved rounds.
+def kernels() -> list[Line]:
+    """Of a kernel, its time over that of `bouc_wen` with a shared input, the fastest of interleaved rounds.
 
     The kernels in place are repeated on one array, parameters drawn so that it neither grows nor vanishes.
     """
@@ -60,17 +60,44 @@ def rows() -> list[tuple[str, float, float]]:
         radii = np.linspace(0.0, 2.0, plays)
         runs.append((f"play bank of {plays}, a play", lambda radii=radii: play(u, radii), 0.2))
         columns[runs[-1][0]] = plays
-    fastest = {name: np.inf for name, _, _ in runs}
-    for _ in range(ROUNDS):
-        for name, run, _ in runs:
-            before = time.thread_time()
-            run()
-            fastest[name] = min(fastest[name], time.thread_time() - before)
-    particle = fastest["bouc-wen"] / PARTICLES
-    return [(name, fastest[name] / columns.get(name, PARTICLES) / particle, asked) for name, _, asked in runs]
+    seconds = fastest({name: run for name, run, _ in runs}, ROUNDS)
+    particle = seconds["bouc-wen"] / PARTICLES
+    return [Line(name, seconds[name] / columns.get(name, PARTICLES) / particle, asked) for name, _, asked in runs]
+
+
+CHAIN = ("input-lag", "creep", "saturation", "drift")
+
+
+def systems() -> list[Line]:
+    """Of a model with effects around it, its time over that of the bare one."""
+    from hysteresis_bench import registry
+    from hysteresis_bench.compose import System
+    from hysteresis_bench.fit.resources import economical
+    from hysteresis_bench.signals import Record
+
+    grid = np.linspace(0.0, 6.0, SAMPLES)
+    drive = 2.5 * np.sin(np.pi * grid)
+    record = Record(grid, drive, drive, columns={"temperature": 20.0 + grid})
+    model = registry.build("models", "bouc-wen")
+    rng = np.random.default_rng(0)
+    shipped = [name for name in registry.names("effects") if name != registry.DESCRIPTION]
+    asked = {(): 1.0, **{(name,): 4.0 for name in shipped}}
+    asked |= {CHAIN: 8.0, tuple(name for name in CHAIN if name != "saturation"): 2.5}
+    runs: dict[tuple[str, ...], Callable[[], object]] = {}
+    for names in asked:
+        system = System(model, registry.build_effects(model, names))
+        box = system.box((record,))
+        share = rng.uniform(0.05, 0.95, (len(box), PARTICLES))
+        values = np.array([[p.lower] for p in box]) + share * np.array([[p.upper - p.lower] for p in box])
+        runs[names] = lambda system=system, values=values: system.respond(record, values)
+    with economical():
+        seconds = fastest({" + ".join(names): run for names, run in runs.items()}, ROUNDS // 3)
+    return [
+        Line(name or "bouc-wen alone", taken / seconds[""], most)
+        for (name, taken), most in zip(seconds.items(), asked.values(), strict=True)
+    ]
 
 
 if __name__ == "__main__":
-    print(f"{PARTICLES} particles, {SAMPLES} samples; B = bouc-wen with a shared input")
-    for name, ratio, asked in rows():
-        print(f"{name:36s} {ratio:6.2f} B   asked {asked:4.1f} B   {'held' if ratio <= asked else 'missed'}")
+    show(f"Kernels, {PARTICLES} particles, {SAMPLES} samples; B = bouc-wen with a shared input", "B", kernels())
+    show("Bouc-Wen with effects around it, against the bare one", "times", systems())

@@ -5,16 +5,18 @@ python benchmarks/free_energy.py
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Iterator
+from functools import partial
 
 import numpy as np
 from numba import njit
+from table import Line, fastest, show
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.free_energy import magnetization, quadrature
 
-SAMPLES, SWARM = 2000, 48
+SAMPLES, SWARM, ROUNDS = 2000, 48, 3
+NODES, GRIDS = (16, 32, 64, 128), (40, 80, 160)
 COERCIVE, SPREAD, INTERACTION = 1.0, 0.25, 0.6
 
 
@@ -52,19 +54,8 @@ def grid(rows: int, columns: int) -> tuple[Array, Array, Array, Array]:
     return coercive, density / density.sum(), interaction, weight / weight.sum()
 
 
-def seconds(run: Callable[[], Array], repeats: int) -> float:
-    """CPU time of the fastest of some runs, after one that compiles."""
-    run()
-    fastest = np.inf
-    for _ in range(repeats):
-        began = time.process_time()
-        run()
-        fastest = min(fastest, time.process_time() - began)
-    return fastest
-
-
-def rows(repeats: int = 7) -> Iterator[dict[str, object]]:
-    """One row a kernel: kernel, ns a particle-sample, and the relative RMS error against 4001 nodes."""
+def kernels() -> Iterator[tuple[str, Callable[[], Array], int, float]]:
+    """(kernel, a run of it, its particle-samples, its relative RMS error against 4001 nodes)."""
     phase = np.linspace(0.0, 1.0, SAMPLES)
     field = 4.0 * np.sin(16 * np.pi * phase) * (1.0 - 0.7 * phase)
     spread = np.exp(np.random.default_rng(0).normal(0.0, 0.3, (3, SWARM)))
@@ -77,22 +68,27 @@ def rows(repeats: int = 7) -> Iterator[dict[str, object]]:
 
     exact = played(4001, 5.0)
     extent = np.ptp(exact, axis=0)
-    for nodes in (16, 32, 64, 128):
+    for nodes in NODES:
         error = float(np.sqrt(np.mean(((played(nodes) - exact) / extent) ** 2)))
-        elapsed = seconds(lambda n=nodes: played(n), repeats)
-        yield {"kernel": f"free-energy, {nodes} nodes", "ns": 1e9 * elapsed / (SAMPLES * SWARM), "error": error}
-    for size in (40, 80, 160):
+        yield f"free-energy, {nodes} nodes", partial(played, nodes), SAMPLES * SWARM, error
+    for size in GRIDS:
         axes = grid(size, 2 * size)
         error = float(np.sqrt(np.mean((relays(field, *axes) - exact[:, 0]) ** 2)) / extent[0])
-        elapsed = seconds(lambda a=axes: relays(field, *a), min(repeats, 3))
-        yield {"kernel": f"relays, {size} x {2 * size}", "ns": 1e9 * elapsed / SAMPLES, "error": error}
+        yield f"relays, {size} x {2 * size}", partial(relays, field, *axes), SAMPLES, error
+
+
+def main() -> None:
+    found = {name: (run, size, error) for name, run, size, error in kernels()}
+    seconds = fastest({name: run for name, (run, _, _) in found.items()}, ROUNDS)
+    costs = {name: 1e9 * seconds[name] / size for name, (_, size, _) in found.items()}
+    errors = {name: error for name, (_, _, error) in found.items()}
+    show("free energy, and brute-force relays", "ns a particle-sample", [Line(*one) for one in costs.items()])
+    show("free energy, and brute-force relays", "relative error", [Line(*one) for one in errors.items()])
+    ours, relay = list(found)[: len(NODES)], list(found)[len(NODES) :]
+    pairs = ((one, next((mine for mine in ours if errors[mine] <= errors[one]), None)) for one in relay)
+    ratios = [Line(f"{one} / {mine}", costs[one] / costs[mine]) for one, mine in pairs if mine]
+    show("relays over as good a free energy", "times the time", ratios)
 
 
 if __name__ == "__main__":
-    measured = list(rows())
-    for row in measured:
-        print(f"{row['kernel']:28s}{row['ns']:12.1f} ns a particle-sample    relative error {row['error']:.1e}")
-    for relay in measured[4:]:
-        as_good = next((row for row in measured[:4] if row["error"] <= relay["error"]), None)
-        if as_good:
-            print(f"{as_good['kernel']} is {relay['ns'] / as_good['ns']:.0f} times faster than {relay['kernel']}")
+    main()

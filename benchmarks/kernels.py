@@ -1,28 +1,21 @@
-"""How fast the kernels are: against scalar loops, and in a whole trial against other libraries.
+"""How fast a swarm is: against scalar loops, and in a whole trial against other libraries.
 
 python benchmarks/kernels.py [--rounds N] [--no-trials]
-
-CPU time of this thread, medians of interleaved rounds: other load on the machine moves the absolute
-numbers; trust the ratios.
 """
 
 from __future__ import annotations
 
 import argparse
 import math
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-import bouc_wen
-import free_energy
 import numpy as np
 from numba import njit
 from peers import TRIALS
-from rich.console import Console
-from rich.table import Table
+from table import Line, medians, show
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
@@ -88,20 +81,7 @@ def compiled(loop: Callable[..., Array]) -> Callable[..., Array]:
     return partial(njit(error_model="numpy")(function), **keywords)
 
 
-def interleaved(variants: Mapping[str, Callable[[], Any]], rounds: int) -> dict[str, float]:
-    """Median CPU seconds of this thread, each variant once a round."""
-    taken: dict[str, list[float]] = {name: [] for name in variants}
-    for turn in range(rounds + 1):
-        for name, call in variants.items():
-            start = time.thread_time()
-            call()
-            if turn > 0:  # the first round compiles
-                taken[name].append(time.thread_time() - start)
-    return {name: float(np.median(seconds)) for name, seconds in taken.items()}
-
-
-def kernel_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
-    """(variant, ns a particle-sample)."""
+def kernel_rows(entry: Entry, rounds: int) -> list[Line]:
     values = np.array(list(entry.truth.values()))[:, None]
     swarm = values * np.exp(np.random.default_rng(0).normal(0.0, 0.5, (values.size, PARTICLES)))
     system = System(entry.model)
@@ -117,12 +97,12 @@ def kernel_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
         "compiled scalar loop (Euler)": (lambda: fast(entry.drive, *one[:, 0]), SAMPLES),
         "plain Python loop (Euler)": (lambda: entry.loop(short, *one[:, 0]), short.size),
     }
-    seconds = interleaved({name: call for name, (call, _) in variants.items()}, rounds)
-    return [(name, 1e9 * seconds[name] / size) for name, (_, size) in variants.items()]
+    seconds = medians({name: call for name, (call, _) in variants.items()}, rounds)
+    return [Line(name, 1e9 * seconds[name] / size) for name, (_, size) in variants.items()]
 
 
-def trial_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
-    """(who, seconds) of a whole trial of 50 particles, first swarm + 300 iterations."""
+def trial_rows(entry: Entry, rounds: int) -> list[Line]:
+    """CPU seconds of a whole trial of 50 particles, first swarm + 300 iterations."""
     truth = np.array(list(entry.truth.values()))
     fast = compiled(entry.loop)
     measured = System(entry.model).simulate(
@@ -147,19 +127,9 @@ def trial_rows(entry: Entry, rounds: int) -> list[tuple[str, float]]:
         with np.errstate(over="ignore", invalid="ignore"):
             return float(np.nan_to_num(math.sqrt(error @ error / SAMPLES), nan=1e9, posinf=1e9))
 
-    seconds = interleaved({"pso on the swarm kernel": ours}, rounds)
+    seconds = medians({"pso on the swarm kernel": ours}, rounds)
     theirs = {name: partial(trial, loss, truth.size, PARTICLES, ITERATIONS + 1) for name, trial in TRIALS.items()}
-    return [*seconds.items(), *interleaved(theirs, 1).items()]
-
-
-def shown(title: str, unit: str, rows: list[tuple[str, float]]) -> Table:
-    table = Table(title=title, title_justify="left")
-    table.add_column("")
-    table.add_column(unit, justify="right")
-    table.add_column("ratio", justify="right")
-    for name, value in rows:
-        table.add_row(name, f"{value:.3g}", f"{value / rows[0][1]:.1f}")
-    return table
+    return [Line(*one) for one in (*seconds.items(), *medians(theirs, 1).items())]
 
 
 def main() -> None:
@@ -167,17 +137,11 @@ def main() -> None:
     arguments.add_argument("--rounds", type=int, default=7)
     arguments.add_argument("--no-trials", action="store_true", help="only the kernels")
     asked = arguments.parse_args()
-    console = Console()
     for entry in ENTRIES:
-        rows = kernel_rows(entry, asked.rounds)
-        console.print(shown(f"{entry.name}, {SAMPLES} samples", "ns a particle-sample", rows))
+        show(f"{entry.name}, {SAMPLES} samples", "ns a particle-sample", kernel_rows(entry, asked.rounds))
         if not asked.no_trials:
             title = f"{entry.name}: a trial of {PARTICLES} x {ITERATIONS} on {SAMPLES} samples"
-            console.print(shown(title, "CPU s", trial_rows(entry, 3)))
-    costs = [(name, cost) for name, cost, _ in bouc_wen.rows()]
-    console.print(shown(f"bouc-wen and second-order, {PARTICLES} x {SAMPLES}", "ns a particle-sample", costs))
-    of_free_energy = [(f"{row['kernel']}, error {row['error']:.0e}", row["ns"]) for row in free_energy.rows()]
-    console.print(shown("free energy, and brute-force relays", "ns a particle-sample", of_free_energy))
+            show(title, "CPU s", trial_rows(entry, 3))
 
 
 if __name__ == "__main__":

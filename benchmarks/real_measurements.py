@@ -53,7 +53,6 @@ class Case:
     known: str
     runs: tuple[str, ...] = ()
     held_out: tuple[str, ...] = ()
-    skip: float | None = None
     smooth: int = 1
     effects: tuple[str, ...] = ()
     options: DiagnosisOptions = field(default_factory=DiagnosisOptions)
@@ -85,7 +84,7 @@ CASES = (
         "1 Hz only, so that rate dependence cannot show; the first 0.5 s are a switch-on transient; the sensor's "
         "noise is 0.065 µm; offsets differ between records",
         held_out=("modulated_1Hz_ramp_down",),
-        skip=0.5,
+        options=DiagnosisOptions(skip=0.5),
         effects=("record-offset",),
     ),
     Case(
@@ -96,7 +95,7 @@ CASES = (
         "bouc-wen",
         "the same records, but the one whose amplitude changes is fitted and the one of full amplitude held out",
         held_out=("full_amplitude_1Hz",),
-        skip=0.5,
+        options=DiagnosisOptions(skip=0.5),
         effects=("record-offset",),
     ),
     Case(
@@ -108,7 +107,7 @@ CASES = (
         "as before, with one straight line in time a record beside its offset, before and after: the full-amplitude "
         "record drifts by half a micrometre, the other does not",
         held_out=("full_amplitude_1Hz",),
-        skip=0.5,
+        options=DiagnosisOptions(skip=0.5),
         effects=("record-offset", "record-drift"),
     ),
     Case(
@@ -118,7 +117,7 @@ CASES = (
         ("s", "V", "um"),
         "bouc-wen",
         "the first two thirds of the full-amplitude record fitted, the last third predicted",
-        skip=0.5,
+        options=DiagnosisOptions(skip=0.5),
         effects=("record-offset",),
     ),
     Case(
@@ -212,7 +211,7 @@ CASES = (
 
 def prepared(case: Case) -> Dataset:
     """The case's records, as `diagnose` gets them."""
-    dataset = load(*(DATA / file for file in case.files), skip=case.skip)
+    dataset = load(*(DATA / file for file in case.files))
     records = [record for record in dataset.records if not case.runs or record.name in case.runs]
     units = dict(zip(("time", "input", "output"), case.units, strict=True))
     return Dataset(tuple(replace(_smoothed(r, case.smooth), units=units) for r in records), case.held_out)

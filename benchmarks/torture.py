@@ -38,6 +38,8 @@ FAST, SLOW = (
     ("pso", "mpso", "icpso", "pso-constriction", "random-search"),
     ("scipy-nelder-mead", "nlopt-crs2", "pymoo-de"),
 )
+PATIENCE = 20.0
+"""Seconds in which what a run started is gone: a Dask worker keeps its pool for ten."""
 SLOWER = 6
 """How much the latter take for an evaluation, about; they get so much less."""
 
@@ -111,7 +113,7 @@ class Bench:
         return found
 
     def expect_no_orphan(self, besides: set[int]) -> None:
-        deadline = time.monotonic() + 5.0
+        deadline = time.monotonic() + PATIENCE
         while self.marked() - besides and time.monotonic() < deadline:
             time.sleep(0.1)
         expect(not self.marked() - besides, f"processes are left: {self.marked() - besides}")
@@ -205,11 +207,11 @@ def main() -> None:
     parser.add_argument("--trials", type=int, default=5, help="of each of 64 good and 16 bad optimizers")
     parser.add_argument("--kills", type=int, default=50, help="of the runner")
     parser.add_argument("--worker-kills", type=int, default=20)
-    parser.add_argument("--budget", type=int, default=24000, help="evaluations of a trial")
+    parser.add_argument("--budget", type=int, default=36000, help="evaluations of a trial")
     parser.add_argument("--dask", action="store_true", help="the bad trials on Dask distributed, too")
     told = parser.parse_args()
     with tempfile.TemporaryDirectory() as name:
-        bench = Bench(Path(name), variants=8, trials=told.trials, budget=told.budget, timeout=8.0)
+        bench = Bench(Path(name), variants=8, trials=told.trials, budget=told.budget, timeout=6.0)
         try:
             print(bad_trials(bench), flush=True)
             if told.kills:

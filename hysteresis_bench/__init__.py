@@ -11,9 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from hysteresis_bench.control.comparison import Comparison
+    from hysteresis_bench.control.comparison import Comparison as ControlComparison
     from hysteresis_bench.data.layout import Layout as Layout
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
+    from hysteresis_bench.diagnosis.laws.comparison import Comparison
     from hysteresis_bench.diagnosis.question import DiagnosisOptions as DiagnosisOptions
     from hysteresis_bench.fit.fitting import Fit
     from hysteresis_bench.fit.fitting import FitOptions as FitOptions
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.study.run import Progress
     from hysteresis_bench.study.run import RunOptions as RunOptions
 
-__all__ = ["control", "diagnose", "fit", "load", "measure", "predict", "run_study"]
+__all__ = ["compare", "control", "diagnose", "fit", "load", "measure", "predict", "run_study"]
 
 # Python binds a package's name when it is first imported: later than here, it would replace the function of that name.
 for _package in ("control", "fit"):
@@ -118,7 +119,7 @@ def fit(
 
 def diagnose(
     dataset: Dataset,
-    model: str,
+    model: str = "",
     effects: Sequence[str] = (),
     *,
     settings: Mapping[str, Any] | None = None,
@@ -128,6 +129,7 @@ def diagnose(
 ) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 
+    model : where none is named, the law is found from the data, with its effects
     effects : known to act, around the model from the beginning;  settings, bounds, fixed : as of `fit`
     options : seed, processes, and how the data are prepared, such as DiagnosisOptions(settle=True, jobs=2)
     Raises UserError telling every fault at once.
@@ -137,6 +139,24 @@ def diagnose(
 
     asked = (settings or {}, bounds or {}, fixed or {}, options or DiagnosisOptions())
     return diagnose_records(dataset, Question(model, effects, *asked))
+
+
+def compare(
+    dataset: Dataset,
+    models: Sequence[str] = (),
+    effects: Sequence[str] = (),
+    *,
+    options: DiagnosisOptions | None = None,
+) -> Comparison:
+    """Fit laws to the fitted records, and judge them by what they did not see, beside a polynomial without memory.
+
+    models : by name, all registered ones where empty;  effects : known to act around every law
+    options : seed, processes, and how the data are prepared
+    Raises UserError telling every fault at once.
+    """
+    from hysteresis_bench.diagnosis.laws.comparison import compare as compare_laws
+
+    return compare_laws(dataset, models, effects, options=options)
 
 
 def predict(model: FittedModel | Path | str, *files: Path | str, layout: Layout | None = None) -> Dataset:
@@ -165,7 +185,7 @@ def control(
     amplitude: float | None = None,
     seed: int = 0,
     on_step: OnStep | None = None,
-) -> Comparison:
+) -> ControlComparison:
     """Every controller that a fitted model allows, along six references, on a virtual rig.
 
     model : a fitted model, or the path of its model.json;  rig : by name

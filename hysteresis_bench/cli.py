@@ -6,9 +6,8 @@ import sys
 from typing import Any
 
 import click
-from rich.console import Console
-from rich.markup import escape
 
+from hysteresis_bench.commands.compare import compare
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.data.check import check
 from hysteresis_bench.commands.data.export import export
@@ -39,6 +38,9 @@ class Group(click.Group):
             told = str(error)
         except OSError as error:  # a folder that cannot be written, a full disk
             told = f"{error.filename or self.name}: {error.strerror or error}."
+        from rich.console import Console
+        from rich.markup import escape
+
         Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
         sys.exit(USER_AT_FAULT)
 
@@ -55,9 +57,10 @@ def main() -> None:
     and find what the model lacks."""
 
 
-for command in (
+COMMANDS = (
     check,
     check_plugin,
+    compare,
     control,
     diagnose,
     export,
@@ -71,5 +74,6 @@ for command in (
     report,
     run,
     schema,
-):
+)
+for command in COMMANDS:
     main.add_command(command)

@@ -57,20 +57,23 @@ class Example:
 
 
 class Model(ABC):
-    """A hysteresis model: input over time to output over time."""
+    """A hysteresis model: input over time to output over time.
+
+    Where a setting says how many parameters there are, such as a number of plays, `__post_init__` sets `parameters` and
+    `linear` of the instance; those of the class are the defaults'. What a law must remember of the fitted range, such
+    as its largest threshold, is a parameter whose box follows from the data: a fit may move it, model.json keeps it,
+    and it is told with its unit and error, like any other.
+    """
 
     parameters: ClassVar[tuple[Parameter, ...]]
+    linear: ClassVar[tuple[str, ...]] = ()
+    """Parameters in which the output is jointly affine, without effects inside: fits may eliminate them."""
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
     """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
     put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
     elsewhere p has no such field."""
     example: ClassVar[Example | None] = None
     """With what it makes data, where it may be asked to."""
-
-    @property
-    def linear(self) -> tuple[str, ...]:
-        """Parameters in which the output is jointly affine, without effects inside: fits may eliminate them."""
-        return ()
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:

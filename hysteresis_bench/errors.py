@@ -14,8 +14,8 @@ class UserError(Exception):
     """
 
     def __init__(self, where: str, faults: str | Sequence[str]) -> None:
-        self.where = where
-        self.faults = [faults] if isinstance(faults, str) else list(faults)
+        self.where = printable(where)
+        self.faults = [printable(fault) for fault in ([faults] if isinstance(faults, str) else faults)]
         super().__init__(str(self))
 
     def __str__(self) -> str:
@@ -27,6 +27,11 @@ class UserError(Exception):
         self,
     ) -> tuple[type[UserError], tuple[str, list[str]]]:  # exceptions with two arguments do not survive pickling unaided
         return type(self), (self.where, self.faults)
+
+
+def printable(text: str) -> str:
+    """Text that a terminal can print: what would move its cursor, or nothing shows, as escapes."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def nearest(name: str, known: Iterable[str]) -> str:

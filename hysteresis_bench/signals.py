@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.errors import UserError
 
 UNITLESS: Mapping[str, str] = MappingProxyType({"time": "s", "input": "1", "output": "1"})
 INDEX = "sample"
@@ -53,7 +54,7 @@ class Record:
     time, input, output : (samples,); output is None where only a prediction is wanted
     units : of "time", "input", "output" and of any further column
     history : leading samples that are simulated but not scored
-    All arrays are read-only.
+    All arrays are read-only. Raises UserError where time does not strictly increase: a rate has no value there.
     """
 
     time: Array
@@ -66,6 +67,8 @@ class Record:
 
     def __post_init__(self) -> None:
         _close(self, "time", "input", *(["output"] if self.output is not None else []))
+        if not (np.all(np.diff(self.time) > 0.0) and np.all(np.isfinite(self.time))):
+            raise UserError(f"record {self.name}", "its times must be finite and strictly increase.")
 
     @property
     def timed(self) -> bool:

@@ -20,9 +20,9 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
 from hysteresis_bench.study.execution.pool import Pool, Work, at_once
+from hysteresis_bench.study.kept_files.reader import Reader
 from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.problems import closing_dataset
-from hysteresis_bench.study.reader import Reader
 from hysteresis_bench.study.run import Progress, RunOptions, run_study
 from hysteresis_bench.study.study_file import Study, read_study
 

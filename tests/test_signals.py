@@ -1,7 +1,9 @@
 """Records: parts, history, and loops repeated until they settle."""
 
 import numpy as np
+import pytest
 
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Record
 
 
@@ -30,3 +32,9 @@ def test_a_part_keeps_its_share_of_the_history():
 def test_an_input_shared_by_the_swarm_is_one_column():
     assert loop().signal.input.shape == (8, 1)
     assert loop().signal.input.flags.c_contiguous
+
+
+@pytest.mark.parametrize("time", [[0.0, 0.0, 1.0], [0.0, 2.0, 1.0], [0.0, np.nan, 1.0], [0.0, 1.0, np.inf]])
+def test_a_time_that_does_not_increase_is_refused(time):
+    with pytest.raises(UserError, match="record up: its times must be finite and strictly increase"):
+        Record(np.array(time), np.zeros(3), None, "up")

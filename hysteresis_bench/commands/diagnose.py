@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option
 from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page
@@ -27,7 +27,8 @@ SHOWN = 8
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
 @data_options
-@click.option("--model", required=True, help="A registered model; see `list models`.")
+@click.option("--model", default="", help="A registered model; default: the law is found from the data.")
+@click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Where the law is sought.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
@@ -40,10 +41,12 @@ SHOWN = 8
 @click.option("--seed", type=int, default=0, show_default=True)
 @json_option
 @open_option
+@force_option
 def diagnose(
     data: Sequence[Path],
     layout: Layout,
     model: str,
+    models: str,
     held_out: Sequence[str],
     effects: Sequence[str],
     input_offset: float,
@@ -56,6 +59,7 @@ def diagnose(
     seed: int,
     as_json: bool,
     open_page: bool,
+    force: bool,
 ) -> None:
     """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
     from rich.console import Console
@@ -63,19 +67,21 @@ def diagnose(
     from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
     from hysteresis_bench.commands.terminal.steps import steps_told
-    from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
+    from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
-    from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
+    from hysteresis_bench.report.diagnosis.page import FILE, write_diagnosis_page
 
+    folder = out or Path(f"{data[0].stem}-diagnosis")
+    check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
-    options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms)
-    folder = out or Path(f"{data[0].stem}-diagnosis")
-    kept = f"nothing was written to {folder}"
-    with told_when_stopped("diagnose", lambda: kept, "Run it again to begin anew."), steps_told("diagnose") as on_step:
-        found = find(dataset, model, effects, options=replace(options, on_step=on_step))
+    laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
+    kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
+    with told_when_stopped("diagnose", lambda: kept, anew), steps_told("diagnose") as on_step:
+        options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws, on_step)
+        found = find(dataset, model, effects, options=options)
     path = write_diagnosis(folder, found, data)
     page = write_diagnosis_page(path.parent)
     if as_json:

@@ -11,6 +11,8 @@ from hysteresis_bench.errors import UserError
 
 REPORT, CONTINUED = "report.html", ("trials.sqlite", "cases")
 """A study's page, and what a study or a study of diagnosis goes on from."""
+CLOSING = "closing.json"
+"""What a study keeps beside the diagnosis at its end."""
 
 force_option = click.option("--force", is_flag=True, help="Write over what is there, also over the inputs.")
 
@@ -37,7 +39,7 @@ def check_folder(
     if force:
         return
     faults = [f"{file} is one of the inputs." for file in inputs for name in files if _same(folder / name, file)]
-    if not (folder / page).is_file():
+    if not (folder / page).is_file() or (folder / CLOSING).is_file():
         faults += [f"{folder / name} is not this command's own." for name in files if (folder / name).exists()]
     if faults:
         raise UserError(str(folder), [*faults, "Choose another folder with --out, or --force to replace them."])

@@ -7,14 +7,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
 
 from hysteresis_bench.commands.outputs import check_results, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
-from hysteresis_bench.commands.terminal.console import plain_console, say_path
+from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
+    from rich.console import Console
+
     from hysteresis_bench.study.results import Results
 
 DONE, FAILED_TRIALS = 0, 1
@@ -65,6 +66,7 @@ def run(
     with told_when_stopped(study, kept), progress_bar(console) as on_progress:
 
         def keep(progress: Progress) -> None:
+            say_notes(console, progress.notes)
             reached[-1] = progress
             on_progress(progress)
 

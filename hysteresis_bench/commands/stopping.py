@@ -10,8 +10,6 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
-from rich.console import Console
-
 AGAIN = "Run it again to continue."
 
 
@@ -28,6 +26,8 @@ def told_when_stopped(what: Path | str, kept: Callable[[], str], again: str = AG
     except KeyboardInterrupt as stopped:
         by = signal.Signals(stopped.args[0]) if stopped.args else signal.SIGINT
         told = f"{what}: stopped by {by.name}; {kept()}. {again}"
+        from rich.console import Console
+
         Console(stderr=True, soft_wrap=True).print(told, highlight=False, markup=False)
         sys.exit(128 + by)
     finally:

@@ -20,6 +20,7 @@ from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.suitability import check_units, range_words
 from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.seeds import generator
 from hysteresis_bench.progress import OnStep, Step, quiet
 
@@ -76,6 +77,7 @@ def stepped_rig(name: str, settings: Mapping[str, Any] | None = None) -> Stepped
     raise ValueError(f"rig {name} cannot be run sample by sample. These can: {', '.join(able) or 'none'}.")
 
 
+@economical()
 def compare(
     fitted: FittedModel,
     rig: SteppedRig,

@@ -25,7 +25,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import INDEX, UNITLESS, Dataset, Record, joined
 
 SHORTEST = 1e-100
-"""Shortest step of time that can be squared and summed."""
+"""Shortest step of time, or range of an input, that can be squared and summed."""
 
 
 def read_data(
@@ -131,22 +131,17 @@ def _records(path: Path, output_needed: bool, layout: Layout) -> Dataset:
             samples.setdefault(run, []).append(sample)
         stem = f"{path.stem}:{columns.sheet}" if len(sheets) > 1 and columns.sheet else path.stem
         for run, where in samples.items():
-            numbers = {name: values[where] for name, values in columns.numbers.items()}
+            name = stem if columns.runs is None else f"{stem}:{run}"
+            numbers = {column: values[where] for column, values in columns.numbers.items()}
             marks = numbers.pop(HISTORY, np.zeros(len(where)))
-            record = Record(
-                numbers.pop("time"),
-                numbers.pop("input"),
-                numbers.pop("output", None),
-                name=stem if columns.runs is None else f"{stem}:{run}",
-                units=columns.units,
-                columns=numbers,
-                history=int(np.count_nonzero(marks)),
-            )
-            faults += _record_faults(record, columns.lines[where], to_fit=output_needed)
-            if not np.array_equal(marks, np.arange(len(where)) < record.history) or record.history == len(where):
-                faults.append(f'record {record.name}, column "{HISTORY}": 1 for leading samples, 0 for what is scored.')
-            records.append(record)
-            rows.append(_understood(record, columns))
+            history = int(np.count_nonzero(marks))
+            faults += _record_faults(name, numbers, columns.lines[where], to_fit=output_needed)
+            if not np.array_equal(marks, np.arange(len(where)) < history) or history == len(where):
+                faults.append(f'record {name}, column "{HISTORY}": 1 for leading samples, 0 for what is scored.')
+            if not faults:
+                measured = (numbers.pop("time"), numbers.pop("input"), numbers.pop("output", None))
+                records.append(Record(*measured, name=name, units=columns.units, columns=numbers, history=history))
+                rows.append(_understood(records[-1], columns))
     if faults:
         raise UserError(str(path), faults[:KEEP_FAULTS])
     notes = tuple(note for columns in sheets for note in columns.notes)
@@ -169,13 +164,13 @@ def _label(name: str, units: Mapping[str, str]) -> str:
     return name if unit == "1" else f"{name} [{unit}]"
 
 
-def _record_faults(record: Record, lines: Array, to_fit: bool) -> list[str]:
-    if record.time.size < 2:
-        return [f"record {record.name} has {record.time.size} sample; at least 2 are needed."]
-    faults = time_faults(record.time, lines)
-    if to_fit and np.ptp(record.input) == 0:
+def _record_faults(name: str, numbers: Mapping[str, Array], lines: Array, to_fit: bool) -> list[str]:
+    if lines.size < 2:
+        return [f"record {name} has {lines.size} sample; at least 2 are needed."]
+    faults = time_faults(numbers["time"], lines)
+    if to_fit and np.ptp(numbers["input"]) < SHORTEST:
         faults.append(
-            f'record {record.name}, column "input": constant at {record.input[0]:g}; nothing can be identified '
+            f'record {name}, column "input": constant at {numbers["input"][0]:g}; nothing can be identified '
             f"from an input that does not move."
         )
     return faults

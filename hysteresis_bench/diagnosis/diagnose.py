@@ -2,29 +2,66 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
-from hysteresis_bench.diagnosis.preparation import prepare
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
+from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
-from hysteresis_bench.diagnosis.threads import single_threaded
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 
+PURSUED = 2
+"""Laws on which effects are searched, where no model is given. One more costs one more diagnosis."""
 
-@single_threaded
+
+@economical()
 def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 
+    Where no model is asked about, the law is found from the data: all are compared, effects are searched on the most
+    promising ones, and the pair of law and effects is taken that predicts best what it did not see.
     Raises UserError telling every fault at once.
     """
-    on_step = question.options.on_step
-    on_step(Step("the records"))
+    if question.model:
+        return _diagnosed(dataset, question)
+    if question.settings or question.bounds or question.fixed:
+        raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
+    fitted, _ = with_held_out(dataset.map(question.preparation.skipped))
+    laws = compare(fitted, question.options.laws, question.effects, options=replace(question.options, skip=0.0))
+    found = [_diagnosed(dataset, replace(question, model=law)) for law in _promising(laws, len(fitted.fitted) > 1)]
+    best = min(found, key=lambda one: one.unseen)
+    return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))
+
+
+def _diagnosed(dataset: Dataset, question: Question) -> Diagnosis:
+    on_step, law = question.options.on_step, question.model
+    on_step(Step(f"{law}: the records"))
     prepared = prepare(dataset, question)
+    on_step(Step(f"{law}: noise and memory"))
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
-    on_step(Step("before and after"))
+    on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
     return conclude(dataset, question, prepared, found, stages)
+
+
+def _promising(laws: Comparison, several: bool) -> list[str]:
+    """The chosen law, and those that predict best beside it; of a lone record the former only, as its blocks cannot
+    judge between laws."""
+    ranked = [law for law in laws.table.dropna(subset="unseen")["law"] if law not in (BASELINE, laws.chosen)]
+    if not (laws.chosen or ranked):
+        raise UserError("diagnose", f"no law can be fitted to these records. {laws.words}")
+    return [*([laws.chosen] if laws.chosen else []), *ranked][: PURSUED if several else 1]
+
+
+def _told(best: Diagnosis, found: list[Diagnosis], laws: Comparison) -> str:
+    others = [one for one in found if one is not best]
+    rest = "".join(f" {one.model_name} with its effects reaches {one.unseen:.3g}." for one in others)
+    return f"{laws.words} With its effects, {best.model_name} predicts what it did not see to {best.unseen:.3g}.{rest}"

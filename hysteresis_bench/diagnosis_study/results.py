@@ -3,25 +3,55 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
-from dataclasses import asdict
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict, fields
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.data.csv_files import read_table, write_table
 from hysteresis_bench.diagnosis_study.case import Case, CaseTicket
 from hysteresis_bench.diagnosis_study.confusion import confusion
 from hysteresis_bench.diagnosis_study.study_file import DiagnosisStudy, read_diagnosis_study
-from hysteresis_bench.errors import UserError
+from hysteresis_bench.errors import UserError, told
+from hysteresis_bench.study.kept_files.reader import UNREADABLE
 
 STUDY, CASES, CONFUSION, FOLDER = "study.toml", "cases.csv", "confusion.csv", "cases"
 
 
 def read_cases(folder: Path) -> list[Case]:
-    """All finished cases, by bench, then by number."""
-    found = [Case(**json.loads(file.read_text(encoding="utf-8"))) for file in (folder / FOLDER).glob("*.json")]
-    return sorted(found, key=lambda case: (case.bench, case.number))
+    """All finished cases, by bench, then by number; told from cases.csv where the folder of their files is not kept.
+
+    Raises UserError naming the file that is damaged.
+    """
+    files = sorted((folder / FOLDER).glob("*.json"))
+    found = [_read(file, lambda path: [_case(json.loads(path.read_text(encoding="utf-8")))]) for file in files]
+    if not (folder / FOLDER).is_dir() and (folder / CASES).is_file():
+        found = [_read(folder / CASES, lambda path: [_case(row) for row in read_table(path).to_dict("records")])]
+    return sorted((case for cases in found for case in cases), key=lambda case: (case.bench, case.number))
+
+
+def _read(path: Path, read: Callable[[Path], list[Case]]) -> list[Case]:
+    try:
+        return read(path)
+    except (*UNREADABLE, TypeError, KeyError, AttributeError) as error:
+        again = "Delete it and run the study again."
+        raise UserError(str(path), f"is damaged ({told(error)}). {again}") from None
+
+
+def _case(content: Mapping[str, Any]) -> Case:
+    """A case as its file or its row holds it. Raises TypeError for what is none."""
+    values: dict[str, Any] = {}
+    for field in fields(Case):
+        value, text = content[field.name], field.type == "str"
+        if value is None or value != value:  # an empty cell
+            value = "" if text else None
+        kinds: tuple[type, ...] = (str,) if text else (int,) if field.type == "int" else (int, float, type(None))
+        if not isinstance(value, kinds) or isinstance(value, bool):
+            raise TypeError(f"{field.name} is {value!r}")
+        values[field.name] = value
+    return Case(**values)
 
 
 def is_finished(folder: Path, ticket: CaseTicket) -> bool:

@@ -24,6 +24,7 @@ from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
@@ -85,7 +86,8 @@ class Fit:
         """For a notebook: the errors, the parameters, the sentences."""
         tables = (table.to_html(index=False, float_format="%.4g") for table in (self.records, self.parameters))
         name = " + ".join((self.model.model, *self.model.effects))
-        return "".join((f"<p>{escape(name)}</p>", *tables, *map(_paragraph, (self.agreement, *self.warnings))))
+        sentences = (f"<p>{escape(text)}</p>" for text in (self.agreement, *self.warnings))
+        return "".join((f"<p>{escape(name)}</p>", *tables, *sentences))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,6 +108,7 @@ class _Searched:
         return self.found[int(np.argmin(self.losses))]
 
 
+@economical()
 def fit_records(
     dataset: Dataset,
     model: str,
@@ -237,10 +240,11 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
             counted(0)
             rng = generator(*key)
             best = search(problem, optimizer, budget=options.budget, start=start, rng=rng, on_evaluated=counted)
-            options.on_step(Step(f"{said}: to the nearest optimum"))
-            found.append(polish(problem, best.values))
-        losses = tuple(float(problem.losses(space.to_unit(values[:, None]))[0]) for values in found)
-        searched = _Searched(problem, ready, tuple(found), losses, repeats, 0.0)
+            found.append(best.values)
+        options.on_step(Step("to the nearest optimum"))
+        polished = polish(problem, np.column_stack(found))
+        losses = problem.losses(space.to_unit(polished))
+        searched = _Searched(problem, ready, tuple(polished.T), tuple(losses.tolist()), repeats, 0.0)
         if not options.settle:
             return replace(searched, repeats=0)
         gap = gap_after(system, ready.records, searched.values, repeats=repeats)
@@ -261,7 +265,7 @@ def _notes(space: Space, options: FitOptions, repeats: int) -> tuple[str, ...]:
     box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in space.parameters)
     settled = f" Every loop was passed {repeats} times before it was scored." if repeats else ""
     return (
-        f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each, "
+        f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each at most, "
         f"seed {options.seed}, each finished by a local least-squares polish.{settled}",
         f"Search box: {box}.",
         "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation.",
@@ -283,7 +287,3 @@ def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
         for (name, estimate), edge in zip(fitted.parameters.items(), edges, strict=True)
     ]
     return pd.DataFrame(rows)
-
-
-def _paragraph(text: str) -> str:
-    return f"<p>{escape(text)}</p>"

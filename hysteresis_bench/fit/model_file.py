@@ -16,13 +16,14 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.data.data_files import LARGEST
-from hysteresis_bench.data.units import MEASURED, in_units
-from hysteresis_bench.errors import UserError
+from hysteresis_bench.data.units import MEASURED, in_units, same_unit
+from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
+from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.parameters import Parameter
-from hysteresis_bench.signals import Dataset, Record
+from hysteresis_bench.signals import UNITLESS, Dataset, Record
 
 SCHEMA = 2
 READABLE = (1, 2)
@@ -205,40 +206,89 @@ def read_model(path: Path) -> FittedModel:
     try:
         fitted = _fitted(content)
         parameters = fitted.system.parameters
-    except (AttributeError, KeyError, TypeError) as error:
+    except (KeyError, TypeError, OverflowError) as error:
         raise UserError(str(path), f"is not a fitted model of schema {schema}: {error} is missing or wrong.") from None
     except ValueError as error:
         raise UserError(str(path), f"{error}") from None
     estimates = fitted.parameters
     faults = [f'parameter "{p.name}" is missing.' for p in parameters if p.name not in estimates]
-    faults += [r for p in parameters if p.name in estimates and (r := _refused(p, estimates[p.name].value))]
+    faults += [f'the unit of "{name}" is missing.' for name in MEASURED if name not in fitted.units]
+    units = {**UNITLESS, **fitted.units}
+    faults += [r for p in parameters if p.name in estimates and (r := _refused(p, estimates[p.name], units))]
     faults += fitted.system.refusals()
-    faults += [f'the unit of "{name}" is missing.' for name in MEASURED if not isinstance(fitted.units.get(name), str)]
+    faults += _unknown(fitted)
     if faults:
         raise UserError(str(path), faults)
     return fitted
 
 
-def _refused(parameter: Parameter, value: float) -> str:
-    too_large = f"{parameter.name} = {value:g} is too large to work with." if abs(value) > LARGEST else ""
-    return parameter.refuses(value) or too_large
+def _refused(parameter: Parameter, estimate: Estimate, units: Mapping[str, str]) -> str:
+    """Why a parameter cannot have this value in this unit, or an empty string."""
+    if abs(estimate.value) > LARGEST:
+        return f"{parameter.name} = {estimate.value:g} is too large to work with."
+    if not same_unit(estimate.unit, expected := parameter.unit_in(units)):
+        return f'{parameter.name} is in "{estimate.unit}"; with these units it must be in "{expected}".'
+    return parameter.refuses(estimate.value)
+
+
+def _unknown(fitted: FittedModel) -> list[str]:
+    """A sentence on every parameter that the model has not, and every setting of an effect that the file has not."""
+    known = [q.name for q in replace(fitted.system, fixed={}).parameters]
+    named = (*fitted.parameters, *fitted.fixed)
+    found = [f'there is no parameter "{name}". {nearest(name, known)}' for name in named if name not in known]
+    found += [f'parameter "{name}" is both found and fixed.' for name in fitted.fixed if name in fitted.parameters]
+    for name, effect in fitted.system.effects:
+        settings = registry.settings_of(type(effect)) if fitted.schema == SCHEMA else {}
+        missing = [setting for setting in settings if setting not in fitted.effect_settings[name]]
+        found += [f'effect {name}: its setting "{setting}" is missing.' for setting in missing]
+    return found
 
 
 def _fitted(content: Mapping[str, Any]) -> FittedModel:
-    """Raises AttributeError, KeyError, TypeError or ValueError for what is missing or of the wrong kind."""
-    groups = [("", content["parameters"]), *((f"{one['effect']}.", one["parameters"]) for one in content["effects"])]
-    estimates = {prefix + name: Estimate(**numbers) for prefix, group in groups for name, numbers in group.items()}
+    """Raises KeyError, TypeError, OverflowError or ValueError for what is missing or of the wrong kind."""
+    if content["schema"] < SCHEMA:
+        content = _upgraded(content)
+    effects = value_of(content, "effects", list)
+    names = tuple(value_of(effect, "effect", str) for effect in effects)
+    if len(set(names)) < len(names):
+        raise ValueError("an effect stands there twice; it can act once.")
+    prepared, units = value_of(content, "preparation", dict), value_of(content, "units", dict)
+    if unheard_of := prepared.keys() - asdict(AS_IT_IS):
+        raise TypeError(f"preparation: {', '.join(unheard_of)}")
+    groups = [("", content), *((f"{name}.", effect) for name, effect in zip(names, effects, strict=True))]
     return FittedModel(
-        content["model"],
-        content["settings"],
-        tuple(effect["effect"] for effect in content["effects"]),
-        {effect["effect"]: effect.get("settings", {}) for effect in content["effects"]},
-        dict(content["units"]),
-        {name: replace(estimate, value=float(estimate.value)) for name, estimate in estimates.items()},
-        {name: float(value) for name, value in content.get("fixed", {}).items()},
-        Preparation(**content.get("preparation", {})),
-        dict(content.get("data", {})),
-        dict(content.get("error", {})),
-        dict(content.get("created_by", {})),
+        value_of(content, "model", str),
+        value_of(content, "settings", dict),
+        names,
+        {name: value_of(effect, "settings", dict) for name, effect in zip(names, effects, strict=True)},
+        {name: value_of(units, name, str) for name in units},
+        {
+            f"{prefix}{name}": _estimate(one)
+            for prefix, group in groups
+            for name, one in value_of(group, "parameters", dict).items()
+        },
+        {name: number_of(content["fixed"], name) for name in value_of(content, "fixed", dict)},
+        Preparation(
+            number_of(prepared, "input_offset"),
+            value_of(prepared, "flip", bool),
+            number_of(prepared, "skip"),
+            value_of(prepared, "settle", int),
+        ),
+        value_of(content, "data", dict),
+        value_of(content, "error", dict),
+        value_of(content, "created_by", dict),
         content["schema"],
     )
+
+
+def _upgraded(content: Mapping[str, Any]) -> dict[str, Any]:
+    """What schema 1 did not ask for, added."""
+    absent: dict[str, Any] = {"fixed": {}, "preparation": {}, "data": {}, "error": {}, "created_by": {}}
+    effects = [{"settings": {}, **effect} for effect in value_of(content, "effects", list)]
+    prepared = {**asdict(AS_IT_IS), **value_of({**absent, **content}, "preparation", dict)}
+    return {**absent, **content, "effects": effects, "preparation": prepared}
+
+
+def _estimate(content: Any) -> Estimate:
+    error = None if content["standard_error"] is None else number_of(content, "standard_error")
+    return Estimate(number_of(content, "value"), error, value_of(content, "unit", str))

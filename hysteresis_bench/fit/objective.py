@@ -21,10 +21,10 @@ CEILING = 1e9
 reasonable range, or is NaN, is worth. Finite, because NaN makes pymoo's CMA-ES hang and inf ends nlopt's
 DIRECT-L after 9 calls."""
 
-BLOCK_BYTES = 4 << 20
-"""Simulated output of a block of a swarm: large enough for the paper's 50 particles on 6000 samples at once."""
-LEAST_BLOCK = 16
-"""Columns below which a kernel no longer fills its vector lanes."""
+BLOCK_BYTES = 64 << 20
+"""Simulated output of a block of a swarm at most, but for the longest records."""
+LEAST_BLOCK, MOST_BLOCK = 16, 64
+"""Columns below which a kernel no longer fills its vector lanes, and those that it integrates side by side."""
 
 
 OnEvaluated: TypeAlias = Callable[[int], None]
@@ -77,9 +77,9 @@ class Problem:
 
     @cached_property
     def block(self) -> int:
-        """Columns simulated at once, a multiple of 8 lanes."""
+        """Columns simulated at once."""
         longest = max(record.time.size for record in self.records)
-        return max(LEAST_BLOCK, BLOCK_BYTES // (8 * longest) // 8 * 8)
+        return min(MOST_BLOCK, max(LEAST_BLOCK, BLOCK_BYTES // (8 * longest)))
 
     def squares(self, points: Array) -> Array:
         """Sum of squared errors over all scored samples; points : (dimension, swarm) in the unit box."""

@@ -22,7 +22,7 @@ LANES = 64
 """Particles that are integrated side by side."""
 
 # Rows of one work array: constant offsets tell the compiler that they do not overlap.
-G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, MIRROR, DIRECTION, INPUT = (
+G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, MIRROR, DIRECTION, OUT = (
     row * LANES for row in range(12)
 )
 ROWS = 12
@@ -124,7 +124,112 @@ def _turned(work, j, step):  # type: ignore[no-untyped-def]
     return g * direction
 
 
+@njit(cache=True, error_model="numpy")
+def _faced(work: Array, now: Array, before: Array) -> None:
+    """From h to g in the direction of each lane's own input, which goes from `before` to `now`."""
+    for j in range(now.size):
+        step = now[j] - before[j]
+        work[DIRECTION + j] = 1.0 if step >= 0.0 else -1.0
+        work[G + j] *= work[DIRECTION + j]
+        work[WIDTH + j] = abs(step)
+
+
+@njit(cache=True, error_model="numpy")
+def _unfaced(work: Array, used: int) -> None:
+    for j in range(used):
+        work[G + j] *= work[DIRECTION + j]
+
+
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _side_by_side(
+    u: Array, moved: tuple[Array, Array], shared: bool, p: tuple[Array, Array, Array, Array], v: Array
+) -> None:
+    """As `bouc_wen`, for LANES particles at most, into v. moved : `paths` of u;  p : alpha, beta, gamma, d
+
+    Loops run over columns from the first one on, as an index that might be negative keeps them from being vectorised;
+    a shared input's go by the work array, as one that writes into v makes a swarm of one wait.
+    """
+    alpha, beta, gamma, d = p
+    length, largest = moved
+    samples, used = v.shape
+    work = np.zeros(ROWS * LANES)
+    fastest = 0.0
+    widest = 0.0
+    rising = True
+    for j in range(used):
+        column = 0 if shared else j
+        loop = alpha[j] * d[j]
+        mirror = 1.0 if loop >= 0.0 else -1.0
+        work[DRIVE + j] = abs(loop)
+        work[ALONG + j] = beta[j] + mirror * gamma[j]
+        work[AGAINST + j] = beta[j] - mirror * gamma[j]
+        work[BOUND + j] = RUNAWAY * abs(loop) * length[column]
+        work[SLOPE + j] = d[j]
+        work[MIRROR + j] = mirror
+        work[DIRECTION + j] = mirror
+        widest = max(widest, largest[column])
+        fastest = max(fastest, max(abs(work[ALONG + j]), abs(work[AGAINST + j])))
+        v[0, j] = d[j] * u[0, column]
+    for i in range(1, samples):
+        steepest = fastest * (abs(u[i, 0] - u[i - 1, 0]) if shared else widest)
+        special = 0
+        if not shared:  # G holds h without the mirror's sign: a lane turns whenever its own input does
+            if steepest > SERIES_LIMIT:
+                _faced(work, u[i], u[i - 1])
+                special = _coarse(work, used, steepest)
+                _unfaced(work, used)
+                for j in range(used):
+                    v[i, j] = work[SLOPE + j] * u[i, j] - work[MIRROR + j] * work[G + j]
+            else:
+                for j in range(used):
+                    x = u[i, j]
+                    step = x - u[i - 1, j]
+                    direction = 1.0 if step >= 0.0 else -1.0
+                    g = work[G + j] * direction
+                    free = _fine(work, j, g, abs(step))
+                    h = free * direction
+                    work[OLD + j] = g
+                    work[G + j] = h
+                    v[i, j] = work[SLOPE + j] * x - work[MIRROR + j] * h
+                    special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
+            if special > 0:
+                _faced(work, u[i], u[i - 1])
+                _mended(work, used)
+                _unfaced(work, used)
+                for j in range(used):
+                    v[i, j] = work[SLOPE + j] * u[i, j] - work[MIRROR + j] * work[G + j]
+            continue
+
+        x = u[i, 0]
+        step = x - u[i - 1, 0]
+        width = abs(step)
+        if (step < 0.0) == rising and step != 0.0:
+            rising = not rising
+            for j in range(used):
+                work[G + j] = _turned(work, j, step)
+        if steepest > SERIES_LIMIT:
+            work[WIDTH : WIDTH + used] = width
+            special = _coarse(work, used, steepest)
+            for j in range(used):
+                work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
+        else:  # the same in one pass
+            for j in range(used):
+                g = work[G + j]
+                free = _fine(work, j, g, width)
+                work[OLD + j] = g
+                work[G + j] = free
+                work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * free
+                special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
+        if special > 0:
+            work[WIDTH : WIDTH + used] = width
+            _mended(work, used)
+            for j in range(used):
+                work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
+        for j in range(used):
+            v[i, j] = work[OUT + j]
+
+
+@njit(cache=True, error_model="numpy")
 def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Array:
     """Bouc-Wen with n = 1, exact on every increment of the input.
 
@@ -138,83 +243,17 @@ def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Arr
     """
     samples, columns = u.shape
     swarm = d.size
+    shared = columns == 1
     length, largest = paths(u)
     v = np.empty((samples, swarm))
+    if swarm <= LANES:
+        _side_by_side(u, (length, largest), shared, (alpha, beta, gamma, d), v)
+        return v
     for first in range(0, swarm, LANES):
-        used = min(LANES, swarm - first)
-        work = np.zeros(ROWS * LANES)
-        fastest = 0.0
-        widest = 0.0
-        rising = True
-        for j in range(used):
-            column = first + j if columns > 1 else 0
-            loop = alpha[first + j] * d[first + j]
-            mirror = 1.0 if loop >= 0.0 else -1.0
-            work[DRIVE + j] = abs(loop)
-            work[ALONG + j] = beta[first + j] + mirror * gamma[first + j]
-            work[AGAINST + j] = beta[first + j] - mirror * gamma[first + j]
-            work[BOUND + j] = RUNAWAY * abs(loop) * length[column]
-            work[SLOPE + j] = d[first + j]
-            work[MIRROR + j] = mirror
-            work[DIRECTION + j] = mirror
-            widest = max(widest, largest[column])
-            fastest = max(fastest, max(abs(work[ALONG + j]), abs(work[AGAINST + j])))
-            work[INPUT + j] = u[0, column]
-            v[0, first + j] = d[first + j] * u[0, column]
-        for i in range(1, samples):
-            steepest = fastest * (widest if columns > 1 else abs(u[i, 0] - u[i - 1, 0]))
-            special = 0
-            if columns > 1:
-                for j in range(used):
-                    x = u[i, first + j]
-                    work[WIDTH + j] = x - work[INPUT + j]
-                    work[INPUT + j] = x
-                if steepest > SERIES_LIMIT:
-                    for j in range(used):
-                        work[G + j] = _turned(work, j, work[WIDTH + j])
-                        work[WIDTH + j] = abs(work[WIDTH + j])
-                    special = _coarse(work, used, steepest)
-                    for j in range(used):
-                        v[i, first + j] = work[SLOPE + j] * work[INPUT + j] - work[DIRECTION + j] * work[G + j]
-                else:
-                    for j in range(used):
-                        g = _turned(work, j, work[WIDTH + j])
-                        width = abs(work[WIDTH + j])
-                        free = _fine(work, j, g, width)
-                        work[WIDTH + j] = width
-                        work[OLD + j] = g
-                        work[G + j] = free
-                        v[i, first + j] = work[SLOPE + j] * work[INPUT + j] - work[DIRECTION + j] * free
-                        special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
-                if special > 0:
-                    _mended(work, used)
-                    for j in range(used):
-                        v[i, first + j] = work[SLOPE + j] * work[INPUT + j] - work[DIRECTION + j] * work[G + j]
-                continue
-
-            x = u[i, 0]
-            step = x - u[i - 1, 0]
-            width = abs(step)
-            if (step < 0.0) == rising and step != 0.0:
-                rising = not rising
-                for j in range(used):
-                    work[G + j] = _turned(work, j, step)
-            if steepest > SERIES_LIMIT:
-                work[WIDTH : WIDTH + used] = width
-                special = _coarse(work, used, steepest)
-                for j in range(used):
-                    v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
-            else:  # the same in one pass
-                for j in range(used):
-                    g = work[G + j]
-                    free = _fine(work, j, g, width)
-                    work[OLD + j] = g
-                    work[G + j] = free
-                    v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * free
-                    special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
-            if special > 0:
-                work[WIDTH : WIDTH + used] = width
-                _mended(work, used)
-                for j in range(used):
-                    v[i, first + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
+        part = slice(first, min(first + LANES, swarm))
+        some = np.empty((samples, d[part].size))
+        own = u if shared else u[:, part].copy()
+        moved = (length, largest) if shared else (length[part], largest[part])
+        _side_by_side(own, moved, shared, (alpha[part], beta[part], gamma[part], d[part]), some)
+        v[:, part] = some
     return v

@@ -36,6 +36,12 @@ Merit = Callable[[Array, Array], Array]
 
 def jacobian(residuals: Residuals, points: Array, chains: Array) -> tuple[Array, Array]:
     """Residuals (samples, swarm) and their derivatives (samples, swarm, dimension) by the unit box's coordinates."""
+    left, differences, steps = _differences(residuals, points, chains)
+    return left, differences.transpose(1, 0, 2) / steps.T
+
+
+def _differences(residuals: Residuals, points: Array, chains: Array) -> tuple[Array, Array, Array]:
+    """Residuals (samples, swarm), their forward differences (swarm, samples, dimension), steps (dimension, swarm)."""
     dimension, swarm = points.shape
     steps = np.where(points > 0.5, -STEP, STEP)
     moved = np.repeat(points[:, :, None], dimension + 1, axis=2)
@@ -43,7 +49,9 @@ def jacobian(residuals: Residuals, points: Array, chains: Array) -> tuple[Array,
         moved[row, :, row + 1] += steps[row]
     found = residuals(moved.reshape(dimension, -1), np.repeat(chains, dimension + 1))
     found = found.reshape(-1, swarm, dimension + 1)
-    return found[:, :, 0], (found[:, :, 1:] - found[:, :, :1]) / steps.T
+    differences = np.empty((swarm, found.shape[0], dimension))
+    np.subtract(found[:, :, 1:], found[:, :, :1], out=differences.transpose(1, 0, 2))
+    return found[:, :, 0], differences, steps
 
 
 def descend(
@@ -81,12 +89,11 @@ def _normal(residuals: Residuals, points: Array, chains: Array) -> tuple[Array, 
     """Normal matrices (chains, d, d) and descents (chains, d)."""
     matrices, descents = [], []
     for group in _groups(chains.size, max(1, COLUMNS // (points.shape[0] + 1))):
-        left, slopes = jacobian(residuals, points[:, group], chains[group])
-        for chain in range(left.shape[1]):
-            columns = np.ascontiguousarray(slopes[:, chain])
-            matrices.append(columns.T @ columns)
-            descents.append(-(columns.T @ left[:, chain]))
-    return np.array(matrices), np.array(descents)
+        left, differences, steps = _differences(residuals, points[:, group], chains[group])
+        columns = differences.transpose(0, 2, 1)
+        matrices.append(columns @ differences / (steps.T[:, :, None] * steps.T[:, None, :]))
+        descents.append(-(columns @ np.ascontiguousarray(left.T)[..., None])[..., 0] / steps.T)
+    return np.concatenate(matrices), np.concatenate(descents)
 
 
 def _groups(count: int, size: int) -> Iterator[slice]:

@@ -58,6 +58,30 @@ def transition(damping: float, stiffness: float, duration: float) -> tuple[float
     return kept, sine, -stiffness * sine, cosine - half * sine, sine + damping * integral
 
 
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def modes(step: float, u: Array, frequency: float, dampings: Array) -> Array:
+    """Position and velocity of stages of one natural frequency, at rest with the first sample.
+
+    step : sampling interval;  u : float64[samples], linear between its samples, of which the first counts as 0
+    frequency : rad per unit of time;  dampings : float64[stages], 1 is critical
+    -> float64[samples, 2 stages]    position, and velocity over the frequency, stage by stage; unit of u
+    """
+    found = np.empty((u.size, 2 * dampings.size))
+    for j in range(dampings.size):
+        damping = 2.0 * dampings[j] * frequency
+        kept, sine, fallen, slowed, lost = transition(damping, frequency * frequency, step)
+        deviation = velocity = 0.0
+        found[0, 2 * j] = found[0, 2 * j + 1] = 0.0
+        for i in range(1, u.size):
+            slope = (u[i] - u[i - 1]) / step
+            before = deviation
+            deviation = kept * before + sine * velocity - lost * slope
+            velocity = fallen * before + slowed * velocity + (1.0 - kept) * slope
+            found[i, 2 * j] = u[i] - u[0] + deviation
+            found[i, 2 * j + 1] = velocity / frequency
+    return found
+
+
 @njit(inline="always", error_model="numpy")
 def _prepared(stage, duration):  # type: ignore[no-untyped-def]
     damping, stiffness, _, step, _, _ = stage

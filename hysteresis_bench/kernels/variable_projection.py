@@ -35,17 +35,19 @@ def eliminate(residuals: Callable[[Array], Array], points: Array, linear: Sequen
         asked[rows, :, range(1, each)] = 1.0
         answers = residuals(asked.reshape(points.shape[0], -1))
         answers = answers.reshape(answers.shape[0], -1, each)
-        found[rows, group], squares[group] = _least(answers[:, :, 0], answers[:, :, 1:] - answers[:, :, :1])
+        left = np.ascontiguousarray(answers[:, :, 0].T)
+        slopes = np.empty((left.shape[0], left.shape[1], len(rows)))
+        np.subtract(answers[:, :, 1:], answers[:, :, :1], out=slopes.transpose(1, 0, 2))
+        found[rows, group], squares[group] = _least(left, slopes)
     return found, squares
 
 
 def _least(left: Array, slopes: Array) -> tuple[Array, Array]:
-    """Coordinates (linear, points) and sums of squares (points,); left : (samples, points), slopes : with linear."""
-    columns = np.ascontiguousarray(slopes.transpose(1, 0, 2))
-    matrices = columns.transpose(0, 2, 1) @ columns
-    descents = -np.einsum("psl,sp->pl", columns, left)
+    """Coordinates (linear, points) and sums of squares (points,); left : (points, samples), slopes : with linear."""
+    matrices = slopes.transpose(0, 2, 1) @ slopes
+    descents = -(slopes.transpose(0, 2, 1) @ left[:, :, None])[:, :, 0]
     diagonal = np.einsum("pll->pl", matrices)
     diagonal += 1e-14 * np.maximum(diagonal.max(axis=1, keepdims=True), np.finfo(float).tiny)
     shares = bounded_steps(matrices, descents, np.zeros_like(descents), np.ones_like(descents))
-    rest = left + np.einsum("psl,pl->sp", columns, shares)
-    return shares.T, np.einsum("sp,sp->p", rest, rest)
+    left += (slopes @ shares[:, :, None])[:, :, 0]
+    return shares.T, np.einsum("ps,ps->p", left, left)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import platform
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
@@ -12,6 +13,8 @@ from pathlib import Path
 from hysteresis_bench import registry
 from hysteresis_bench.study.study_file import OptimizerSpec, ProblemSpec, Study
 
+Trial = tuple[str, str, int]
+"""problem, optimizer, number"""
 PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "matplotlib")
 
 
@@ -46,19 +49,33 @@ def origin(plugins: Sequence[registry.Plugin]) -> str:
     return json.dumps({"processor": processor(), **versions(), **others}, sort_keys=True)
 
 
-def mixed(origins: Mapping[str, int]) -> tuple[str, ...]:
-    """A sentence for each thing in which trials differ; origins : how many trials have which."""
-    read = [(json.loads(text), trials) for text, trials in origins.items()]
+def mixed(origins: Mapping[Trial, Mapping[str, str]]) -> tuple[str, ...]:
+    """A sentence for each thing in which trials differ."""
     sentences = []
-    for name in sorted({name for made_by, _ in read for name in made_by}):
-        counts: dict[str, int] = {}
-        for made_by, trials in read:
-            if name in made_by:  # a distribution that a trial did not use is no difference
-                counts[made_by[name]] = counts.get(made_by[name], 0) + trials
-        if len(counts) > 1:
-            parts = [f"{trials} with {version}" for version, trials in counts.items()]
-            sentences.append(f"Trials were not all made with the same {name}: {', '.join(parts)}.")
+    for name in _differing(origins):
+        counts = Counter(made_by[name] for made_by in origins.values() if name in made_by)
+        parts = [f"{trials} with {its_version}" for its_version, trials in counts.items()]
+        sentences.append(f"Trials were not all made with the same {name}: {', '.join(parts)}.")
     return tuple(sentences)
+
+
+def made_with(origins: Mapping[Trial, Mapping[str, str]]) -> dict[str, list[Trial]]:
+    """The trials by what they were made with, told in so far as they differ; empty where they do not."""
+    names = _differing(origins)
+    found: dict[str, list[Trial]] = {}
+    for trial, all_of_it in origins.items() if names else ():
+        words = ", ".join(f"{name} {all_of_it[name]}" for name in names if name in all_of_it)
+        found.setdefault(words, []).append(trial)
+    return found
+
+
+def _differing(origins: Mapping[Trial, Mapping[str, str]]) -> list[str]:
+    """Names of which trials have different versions; a distribution that a trial did not use is no difference."""
+    versions_of: dict[str, set[str]] = {}
+    for made_by in origins.values():
+        for name, its_version in made_by.items():
+            versions_of.setdefault(name, set()).add(str(its_version))
+    return sorted(name for name, found in versions_of.items() if len(found) > 1)
 
 
 @cache

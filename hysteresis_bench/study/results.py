@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -13,8 +13,12 @@ import pandas as pd
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
-from hysteresis_bench.study.origin import mixed
-from hysteresis_bench.study.reader import Reader
+from hysteresis_bench.study.kept_files.json_forms import check_provenance
+from hysteresis_bench.study.kept_files.reader import Reader
+from hysteresis_bench.study.kept_files.trial_rows import FINISHED as FINISHED
+from hysteresis_bench.study.kept_files.trial_rows import STATUSES as STATUSES
+from hysteresis_bench.study.kept_files.trial_rows import check_rows
+from hysteresis_bench.study.origin import Trial, mixed
 from hysteresis_bench.study.store import COLUMNS, DAMAGED, FILE, Store
 from hysteresis_bench.study.study_file import Study, read_study
 
@@ -24,20 +28,6 @@ IDENTIFIABILITY, STAGES = "identifiability.json", "stages.csv"
 
 RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
 STAGE_COLUMNS = ("stage", "quantity", "name", "value")
-
-STATUSES = (
-    "done",
-    "finished-early",
-    "no-finite-loss",
-    "raised",
-    "timed-out",
-    "crashed",
-    "out-of-memory",
-    "killed",
-    "not-started",
-)
-FINISHED = ("done", "finished-early")
-"""Statuses of a trial that has a result."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,7 +44,7 @@ class Results:
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
-    mixed : a sentence for each thing in which trials differ that should not: package versions, processors
+    origins : what every trial was made with: package versions, the processor; where the store is kept
     damages : sentences on what could not be read
     closing : the diagnosis at the end; None where the study asks for none, or none was tried
     """
@@ -64,13 +54,18 @@ class Results:
     published: Mapping[str, Any]
     provenance: Mapping[str, Any]
     trials: pd.DataFrame
-    traces: Mapping[tuple[str, str, int], Trace]
+    traces: Mapping[Trial, Trace]
     responses: pd.DataFrame
     identifiability: Mapping[str, Any]
     stages: pd.DataFrame
     closing: Closing | None = None
     damages: tuple[str, ...] = ()
-    mixed: tuple[str, ...] = ()
+    origins: Mapping[Trial, Mapping[str, str]] = field(default_factory=dict)
+
+    @property
+    def mixed(self) -> tuple[str, ...]:
+        """A sentence for each thing in which trials differ that should not: package versions, processors."""
+        return mixed(self.origins)
 
     def _repr_html_(self) -> str:
         """For a notebook: by problem and optimizer, the trials, how many have a result, and the median error."""
@@ -97,7 +92,7 @@ def read_results(folder: Path) -> Results:
         folder,
         study,
         reader.toml(PUBLISHED),
-        reader.json(PROVENANCE),
+        reader.json(PROVENANCE, check_provenance),
         trials,
         traces,
         reader.csv(RESPONSES, RESPONSE_COLUMNS),
@@ -105,12 +100,14 @@ def read_results(folder: Path) -> Results:
         reader.csv(STAGES, STAGE_COLUMNS),
         closing,
         tuple(reader.damages),
-        mixed(origins),
+        origins,
     )
 
 
-def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int], Trace], Mapping[str, int]]:
-    """The trials, their traces, and how many were made with which versions and processor."""
+def _trials(
+    reader: Reader,
+) -> tuple[pd.DataFrame, Mapping[Trial, Trace], Mapping[Trial, Mapping[str, str]]]:
+    """The trials, their traces, and with which versions and processor they were made."""
     if (reader.folder / FILE).is_file():
         try:
             with Store.reading(reader.folder) as store:
@@ -119,7 +116,7 @@ def _trials(reader: Reader) -> tuple[pd.DataFrame, Mapping[tuple[str, str, int],
                 return trials, traces, origins
         except DAMAGED as error:
             reader.said(FILE, error)
-    trials = reader.csv(TRIALS, COLUMNS)
+    trials = reader.csv(TRIALS, COLUMNS, check_rows)
     if trials.empty:
         return pd.DataFrame(columns=list(COLUMNS)), {}, {}
     reader.damages.append(

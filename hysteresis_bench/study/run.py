@@ -11,6 +11,8 @@ from pathlib import Path
 import pandas as pd
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.errors import UserError, told
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.seeds import seed_of
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
@@ -29,7 +31,7 @@ from hysteresis_bench.study.lock import alone, write_whole
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.provenance import describe
 from hysteresis_bench.study.results import IDENTIFIABILITY, RESPONSES, STAGES, TRIALS
-from hysteresis_bench.study.store import Outcome, Store
+from hysteresis_bench.study.store import DAMAGED, FILE, Outcome, Store
 from hysteresis_bench.study.study_file import Study, read_study
 
 
@@ -49,13 +51,18 @@ class RunOptions:
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a study is, after every trial, and once before the first (outcome None)."""
+    """How far a study is, after every trial, and once before the first (outcome None).
+
+    notes : what was done to the data, and what else the user should know, a sentence each; before the first trial
+    """
 
     done: int
     total: int
     outcome: Outcome | None
+    notes: tuple[str, ...] = ()
 
 
+@economical()
 def run_study(
     path: Path | str,
     *,
@@ -81,9 +88,8 @@ def run_study(
         closing_dataset(study, path.parent)  # its faults are told before the trials, not after them
     folder.mkdir(parents=True, exist_ok=True)
     with alone(folder):
-        units = {name: one.dataset.units for name, one in built.items()}
-        describe(folder, path, study=study, text=text, units=units)
-        with Store(folder) as store:
+        notes = describe(folder, path, study=study, text=text, built=built)
+        with _opened(folder) as store:
             store.begin(study.title)
             if options.retry:
                 store.forget(MACHINE)
@@ -92,7 +98,7 @@ def run_study(
             present = store.keys()
             missing = [ticket for ticket in tickets if ticket.key not in present]
             done = len(tickets) - len(missing)
-            on_progress(Progress(done, len(tickets), None))
+            on_progress(Progress(done, len(tickets), None, notes))
             for outcome in _outcomes(study, missing, jobs, options.scheduler):
                 store.add(outcome)
                 done += 1
@@ -116,6 +122,18 @@ def default_folder(study: Path, shard: Shard | None = None) -> Path:
     home = study.resolve().parent
     name = f"{study.stem}.{shard}" if shard else study.stem
     return (home.parent if home.name == "studies" else home) / "runs" / name
+
+
+def _opened(folder: Path) -> Store:
+    """The store of a results folder. Raises UserError where what it holds cannot be read."""
+    try:
+        store = Store(folder)
+        store.table()
+        store.traces()
+    except DAMAGED as error:
+        again = "Move it elsewhere and run the study again, from its first trial."
+        raise UserError(str(folder / FILE), f"is damaged ({told(error)}). {again}") from None
+    return store
 
 
 def _outcomes(study: Study, missing: Sequence[Ticket], jobs: int | None, scheduler: str | None) -> Iterator[Outcome]:

@@ -16,13 +16,13 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.fit.objective import Trace
+from hysteresis_bench.study.kept_files.trial_rows import KEY, check_rows
 
 FILE = "trials.sqlite"
 
-DAMAGED = (sqlite3.Error, ValueError, OSError, KeyError, EOFError, zipfile.BadZipFile)
+DAMAGED = (sqlite3.Error, ValueError, TypeError, AttributeError, OSError, KeyError, EOFError, zipfile.BadZipFile)
 """What a store that was cut or overwritten raises when it is read."""
 
-KEY = ("problem", "optimizer", "trial")
 COLUMNS = (
     "study",
     *KEY,
@@ -149,18 +149,27 @@ class Store:
             trace = _unpacked(trace) if trace else None
             yield Outcome(**known, parameters=json.loads(parameters), trace=trace, origin=made_by or "")
 
-    def origins(self) -> Mapping[str, int]:
-        """How many of the trials were made with which versions and processor; without those of which nobody knows."""
+    def origins(self) -> dict[tuple[str, str, int], Mapping[str, str]]:
+        """What every trial was made with, see origin.origin, in the order they came; without those nobody knows it of.
+
+        Raises ValueError for what no trial was made with.
+        """
         if "origin" not in self._columns():
             return {}
-        query = "SELECT origin, COUNT(*) FROM trials WHERE origin != '' GROUP BY origin ORDER BY MIN(rowid)"
-        return dict(self._connection.execute(query))
+        query = "SELECT problem, optimizer, trial, origin FROM trials WHERE origin != '' ORDER BY rowid"
+        found = {tuple(key): json.loads(text) for *key, text in self._connection.execute(query)}
+        if not all(isinstance(made_with, dict) for made_with in found.values()):
+            raise ValueError("an origin is no object")
+        return found
 
     def _columns(self) -> set[str]:
         return {row[1] for row in self._connection.execute("PRAGMA table_info(trials)")}
 
     def table(self) -> pd.DataFrame:
-        """One row a trial: COLUMNS, then parameter.NAME; ordered by problem, optimizer, trial."""
+        """One row a trial: COLUMNS, then parameter.NAME; ordered by problem, optimizer, trial.
+
+        Raises ValueError for a row that no trial has left.
+        """
         title = next(iter(self._connection.execute("SELECT title FROM study")), ("",))[0]
         query = "SELECT * FROM trials ORDER BY problem, optimizer, trial"
         frame = pd.read_sql_query(query, self._connection)
@@ -171,7 +180,9 @@ class Store:
             for name in names
         }
         frame.insert(0, "study", title)
-        return pd.concat([frame[list(COLUMNS)], pd.DataFrame(found, index=frame.index)], axis=1)
+        table = pd.concat([frame[list(COLUMNS)], pd.DataFrame(found, index=frame.index)], axis=1)
+        check_rows(table)
+        return table
 
     def traces(self) -> dict[tuple[str, str, int], Trace]:
         rows = self._connection.execute("SELECT problem, optimizer, trial, trace FROM trials WHERE trace NOT NULL")

@@ -12,7 +12,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, WithJsonSchema
 
-from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.errors import UserError, nearest, printable
 
 
 class Strict(BaseModel):
@@ -94,7 +94,7 @@ def _leave_out(content: dict[str, Any], location: tuple[int | str, ...]) -> None
             return
         else:
             break
-    whole_table = isinstance(found, dict) and isinstance(location[-1], int)
+    whole_table = isinstance(found, dict) and len(location) == 2 and isinstance(location[-1], int)  # of a [[key]]
     if holder is not None and key in holder and not whole_table:
         del holder[key]
 
@@ -113,8 +113,8 @@ LONGEST = 500
 
 
 def shown(text: str) -> str:
-    """Text that a terminal can print: control characters as their escapes, cut at LONGEST."""
-    plain = "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+    """Text that a terminal can print, cut at LONGEST."""
+    plain = printable(text)
     return plain if len(plain) <= LONGEST else f"{plain[:LONGEST]} ..."
 
 

@@ -1,6 +1,5 @@
 """`predict --plot` and `control --reference` draw; pages open, or say where they are."""
 
-import json
 import webbrowser
 
 import numpy as np
@@ -8,22 +7,24 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
+from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
 
-MODEL = {
-    "schema": 2, "model": "bouc-wen", "settings": {}, "effects": [],
-    "units": {"time": "s", "input": "V", "output": "um"},
-    "parameters": {
-        name: {"value": value, "standard_error": None, "unit": "1"}
-        for name, value in (("alpha", 0.35), ("beta", 0.7), ("gamma", 0.15), ("d", 1.2))
-    },
-}  # fmt: skip
+VALUES = {"alpha": (0.35, "1"), "beta": (0.7, "1/V"), "gamma": (0.15, "1/V"), "d": (1.2, "um/V")}
+MODEL = FittedModel(
+    "bouc-wen",
+    {"n": 1.0},
+    (),
+    {},
+    {"time": "s", "input": "V", "output": "um"},
+    {name: Estimate(value, None, unit) for name, (value, unit) in VALUES.items()},
+)
 ROWS = [f"{i / 100},{3 * np.sin(i / 9):.6f},{3 * np.sin(i / 9):.6f}" for i in range(120)]
 
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "model.json").write_text(json.dumps(MODEL), encoding="utf-8")
+    write_model(tmp_path / "model.json", MODEL)
     (tmp_path / "loop.csv").write_text("time [s],input [V],output [um]\n" + "\n".join(ROWS), encoding="utf-8")
     return tmp_path
 

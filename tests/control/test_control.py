@@ -36,7 +36,8 @@ RATE = 10_000.0
 
 def model(name="hammerstein", effects=(), preparation=None, **changed):
     values = PUBLISHED | (LINEAR if name == "hammerstein" else {}) | changed
-    parameters = {key: Estimate(value, None, "1") for key, value in values.items()}
+    units = {"beta": "1/V", "gamma": "1/V", "d": "um/V", "b": "1/s^2", "c_over_m": "1/s", "k_over_m": "1/s^2"}
+    parameters = {key: Estimate(value, None, units.get(key, "1")) for key, value in values.items()}
     error = {"fitted": {"rmse": 0.02, "relative_rms": 0.01, "max_error": 0.02}}
     return FittedModel(name, {}, effects, {}, UNITS, parameters, {}, preparation or Preparation(), {}, error)
 

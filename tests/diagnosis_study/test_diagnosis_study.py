@@ -12,7 +12,7 @@ from click.testing import CliRunner
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis_study.case import Case, compared
 from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
-from hysteresis_bench.diagnosis_study.results import FOLDER, STUDY, read_cases
+from hysteresis_bench.diagnosis_study.results import CASES, FOLDER, STUDY, read_cases, write_tables
 from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
@@ -76,6 +76,20 @@ def test_the_confusion_matrix_counts_cases():
     assert table.at[NOTHING, NOTHING] == table.at[NOTHING, "drift"] == 1
     assert table.to_numpy().sum() == 5
     assert [case.right for case in cases] == [True, False, False, True, False, False]
+
+
+def test_kept_cases_are_told_from_their_table_and_damaged_ones_by_name(tmp_path):
+    kept = Path(__file__).parents[2] / "results" / "closing_the_loop"
+    assert len(read_cases(kept)) == len((kept / CASES).read_text(encoding="utf-8").splitlines()) - 1
+    case = Case("a", "m", 1, "done", hidden="creep", missed="creep", noise=0.5)
+    write_tables(tmp_path, [case])
+    assert read_cases(tmp_path) == [case]
+    (tmp_path / FOLDER).mkdir()
+    assert read_cases(tmp_path) == []
+    for content in ('{"bench": "a"}', "[1]", json.dumps(asdict(case) | {"noise": "loud"}), ""):
+        (tmp_path / FOLDER / "a.1.json").write_text(content, encoding="utf-8")
+        with pytest.raises(UserError, match=r"a\.1\.json: is damaged"):
+            read_cases(tmp_path)
 
 
 def faults_of(folder, text):

@@ -89,3 +89,18 @@ def test_an_unstable_stage_stays_finite():
     u = np.sin(np.arange(3000.0))[:, None]
     stages = [(-1.0, 1.0), (-1e6, 1.0), (0.0, -1e6), (1.0, 0.0), (-5.0, -5.0), (0.0, 0.0), (-1e3, 1e4)]
     assert np.isfinite(run(np.arange(3000.0), u, *stages)).all()
+
+
+@pytest.mark.parametrize("damping", [0.03, 0.3, 1.0, 4.0])
+@pytest.mark.parametrize("frequency", [0.3, 5.0, 40.0])
+def test_modes_are_a_first_order_hold(damping, frequency):
+    from scipy.signal import cont2discrete, lfilter
+
+    from hysteresis_bench.kernels.second_order import modes
+
+    step, u = 0.02, np.cumsum(np.random.default_rng(3).standard_normal(300))
+    found = modes(step, u, frequency, np.array([0.5, damping]))[:, 2:]
+    for column, numerator in zip(found.T, ([1.0], [1.0 / frequency, 0.0]), strict=True):
+        system = (numerator, [1.0 / frequency**2, 2.0 * damping / frequency, 1.0])
+        b, a, _ = cont2discrete(system, step, method="foh")
+        assert column == pytest.approx(lfilter(b.ravel(), a, u - u[0]), abs=1e-8 * np.ptp(u))

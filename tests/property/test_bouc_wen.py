@@ -107,6 +107,30 @@ def test_the_box_follows_the_units_of_the_data(scale_in, scale_out):
             assert parameter.lower < value < parameter.upper
 
 
+def test_the_sense_of_the_loop_decides_the_side_of_alpha():
+    u = 2.5 * np.sin(np.linspace(0, 20, 500))
+    lagging = record(u)
+    force = record(u, [-20.0, 2.0, 0.4, 0.1])
+    line = Record(lagging.time, u, 2.0 * u)
+    edges = [(BoucWen().box((one,))[0].lower, BoucWen().box((one,))[0].upper) for one in (lagging, force, line)]
+    assert edges == [(0.0, 2.0), (-200.0, 0.0), (-200.0, 2.0)]
+    mirrored = Record(lagging.time, -u, lagging.output)
+    assert BoucWen().box((mirrored,))[0].upper == 0.0
+    assert BoucWen().box((lagging, force))[0].lower < 0.0 < BoucWen().box((lagging, force))[0].upper
+
+
+def test_advice_on_the_sign_holds_whether_the_input_was_turned_or_not():
+    u = 2.5 * np.sin(np.linspace(0, 20, 500))
+    rising, falling = record(u), Record(np.arange(u.size) * 1.0, u, -record(u).output, "falling")
+    (told,) = BoucWen().advice((falling,))
+    assert "input" in told
+    assert "or without it where it was given" in told
+    (told,) = BoucWen().advice((rising, falling))
+    assert "--flip" not in told
+    noise = np.random.default_rng(1).normal(size=u.size)
+    assert not any("flip" in said for said in BoucWen().advice((Record(np.arange(u.size) * 1.0, u, noise - 0.05 * u),)))
+
+
 def test_advice_on_sign_and_offset_and_silence_on_good_data():
     u = 2.5 * np.sin(np.linspace(0, 20, 500))
     good = record(u)

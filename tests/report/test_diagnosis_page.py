@@ -72,6 +72,7 @@ def diagnosis() -> Diagnosis:
         warnings=("One thing to know.", f"input-lag and transport-delay cannot be told apart: {one.reason}."),
         units=UNITS,
         given_up=None,
+        unseen=0.02,
     )
 
 

@@ -13,6 +13,7 @@ ROOMS = [
     "paper",
     "searches",
     "stages",
+    "laws",
     "diagnosis",
     "study",
     "diagnosis_study",

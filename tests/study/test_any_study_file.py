@@ -62,6 +62,7 @@ def test_one_odd_value_is_a_study_or_a_sentence(name, place, value):
         (("problem", 0, "held_out"), 1, "held_out"),
         (("problem", 0, "loss"), [[]], "loss"),
         (("problem", 0, "profile"), [0], "profile"),
+        (("problem", 0, "profile"), [{"a": {}}, ""], "profile"),
         (("problem", 0, "bounds"), "x", "bounds"),
         (("optimizer", 0, "settings"), -1, "settings"),
         (("problem", 0, "fitted"), ["pwm-60s", "pwm-60s"], '"pwm-60s" is named twice'),

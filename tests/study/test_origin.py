@@ -5,8 +5,10 @@ import sqlite3
 from dataclasses import replace
 
 from hysteresis_bench import registry
-from hysteresis_bench.study.origin import mixed, origin
+from hysteresis_bench.report.study import write_report
+from hysteresis_bench.study.origin import made_with, mixed, origin
 from hysteresis_bench.study.store import FILE, Outcome, Store
+from tests.synthetic_study import write_results
 
 OUTCOME = Outcome("p", "pso", 0, "0", "done", "", 10, 0.5)
 
@@ -21,9 +23,24 @@ def test_an_origin_names_processor_versions_and_other_distributions():
 def test_what_differs_between_trials_is_told_and_nothing_else():
     one, other = ({"numpy": version, "scipy": "1.14"} for version in ("2.0", "2.1"))
     guest = {**one, "guest": "3"}
-    origins = {json.dumps(made_by): trials for made_by, trials in ((one, 4), (other, 2), (guest, 1))}
+    made_by = [*[one] * 4, *[other] * 2, guest]
+    origins = {("p", "pso", number): each for number, each in enumerate(made_by)}
     assert mixed(origins) == ("Trials were not all made with the same numpy: 5 with 2.0, 2 with 2.1.",)
-    assert mixed({json.dumps(one): 4}) == ()
+    groups = {words: [number for *_, number in trials] for words, trials in made_with(origins).items()}
+    assert groups == {"numpy 2.0": [0, 1, 2, 3, 6], "numpy 2.1": [4, 5]}
+    assert mixed({("p", "pso", 0): one, ("p", "pso", 1): guest}) == ()
+    assert made_with({("p", "pso", 0): one}) == {}
+
+
+def test_the_report_tells_trial_by_trial_what_differs(tmp_path):
+    folder = write_results(tmp_path / "results", trials=2)
+    with sqlite3.connect(folder / FILE) as store:
+        store.execute('UPDATE trials SET origin = \'{"numpy": "2.0"}\'')
+        store.execute("UPDATE trials SET origin = '{\"numpy\": \"2.1\"}' WHERE optimizer = 'mpso' AND trial = 1")
+    store.close()
+    page = " ".join(write_report(folder).read_text(encoding="utf-8").split())
+    assert "Trials were not all made with the same numpy: 30 with 2.0, 2 with 2.1." in page
+    assert "numpy 2.1" in page
 
 
 def test_the_store_keeps_origins_and_gives_back_what_it_was_given(tmp_path):
@@ -31,7 +48,7 @@ def test_the_store_keeps_origins_and_gives_back_what_it_was_given(tmp_path):
         store.begin("t")
         store.add(replace(OUTCOME, origin='{"numpy": "2.0"}'))
         store.add(replace(OUTCOME, trial=1, status="killed"))
-        assert store.origins() == {'{"numpy": "2.0"}': 1}
+        assert store.origins() == {("p", "pso", 0): {"numpy": "2.0"}}
         assert next(store.outcomes()) == replace(OUTCOME, origin='{"numpy": "2.0"}')
         assert store.forget(["killed", "not-started"]) == 1
         assert store.keys() == {("p", "pso", 0)}
@@ -52,4 +69,4 @@ def test_a_store_of_before_is_read_and_continued(tmp_path):
         store.begin("t")
         store.add(replace(OUTCOME, trial=1, origin='{"numpy": "2.0"}'))
         assert len(store.table()) == 2
-        assert store.origins() == {'{"numpy": "2.0"}': 1}
+        assert store.origins() == {("p", "pso", 1): {"numpy": "2.0"}}

@@ -1,6 +1,7 @@
 """A pool loses no ticket, whatever one of them does, and leaves no process behind."""
 
 import os
+import pickle
 import signal
 import threading
 import time
@@ -8,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from hysteresis_bench.study.execution import cluster
 from hysteresis_bench.study.execution.pool import Pool, Work
 from tests.study.tickets import GOOD, alone, prepare
 from tests.torture_distribution.misbehaviour import BAD, EXPECTED
@@ -73,3 +75,16 @@ def test_a_process_killed_from_outside_costs_the_tickets_it_had(whom):
         killer.join()
     statuses = sorted(status for _, _, status, _ in ended)
     assert statuses == {"template": ["done", "done", "killed", "killed"], "worker": ["done"] * 3 + ["killed"]}[whom]
+
+
+def test_the_pool_of_a_dask_worker_ends_where_no_ticket_comes(monkeypatch):
+    monkeypatch.setattr(cluster, "IDLE", 0.5)
+    monkeypatch.setattr(cluster, "_memory", lambda: 2 << 30)
+    before, work = descendants(os.getpid()), pickle.dumps(WORK)
+    for _ in range(2):  # it is opened again for what comes later
+        assert [cluster.carried_out(work, GOOD)[1] for _ in range(2)] == ["done", "done"]
+        assert descendants(os.getpid()) > before
+        deadline = time.monotonic() + 30.0
+        while descendants(os.getpid()) != before and time.monotonic() < deadline:
+            time.sleep(0.1)
+        assert descendants(os.getpid()) == before

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import sys
+from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
-from rich.markup import escape
 
-from hysteresis_bench import registry
 from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from hysteresis_bench import registry
 
 SINGULAR: dict[str, registry.Kind] = {
     "optimizer": "optimizers",
@@ -27,6 +30,8 @@ FAILED = 1
 @click.option("--timeout", type=float, default=120.0, show_default=True, help="Seconds that a test may take.")
 def check_plugin(name: str, kind: str | None, timeout: float) -> None:
     """Test whether the plugin NAME keeps its contract; exit code 1 where it does not."""
+    from hysteresis_bench import registry
+
     asked = {word: SINGULAR[word] for word in ([kind] if kind else SINGULAR)}
     found = {word: one for word, one in asked.items() if name in registry.names(one)}
     if not found:
@@ -40,6 +45,9 @@ def check_plugin(name: str, kind: str | None, timeout: float) -> None:
 
 def _check(console: Console, word: str, kind: registry.Kind, name: str, timeout: float) -> bool:
     """Print one line a promise; are all kept?"""
+    from rich.markup import escape
+
+    from hysteresis_bench import registry
     from hysteresis_bench.testing.check import BROKEN, check
 
     plugin = registry.load(kind, name)

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
-from rich.markup import escape
-from rich.table import Table
 
-from hysteresis_bench import registry
-from hysteresis_bench.commands.plugins.describe import describe, kinds_of, told_of
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+    from hysteresis_bench import registry
 
 KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
 
@@ -25,6 +26,9 @@ KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
 def list_plugins(what: str | None, as_json: bool) -> None:
     """List models, effects, optimizers, rigs or studies; all of them without an argument. With the name of a plugin
     tell what it is: parameters, settings, and where it comes from."""
+    from hysteresis_bench import registry
+    from hysteresis_bench.commands.plugins.describe import describe, kinds_of, told_of
+
     known = (*KINDS, "studies")
     console = plain_console()
     if what is not None and what not in known:
@@ -48,6 +52,8 @@ def list_plugins(what: str | None, as_json: bool) -> None:
 
 def _rows(kind: registry.Kind) -> list[dict[str, str]]:
     """The plugins of a kind, for programs."""
+    from hysteresis_bench import registry
+
     return [
         {"name": one.name, "summary": one.summary, "distribution": one.distribution, "version": one.version}
         | ({"fault": one.fault} if one.fault else {})
@@ -62,7 +68,11 @@ def _nearest(what: str, kinds: tuple[str, ...], everything: set[str]) -> str:
 
 
 def _list_kind(kind: registry.Kind, console: Console) -> None:
-    table = Table(title=kind, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
+    from rich.markup import escape
+
+    from hysteresis_bench import registry
+
+    table = _table(kind)
     for plugin in registry.registered(kind):
         summary = plugin.summary
         if kind == "rigs" and plugin.loaded is not None:
@@ -77,9 +87,11 @@ def _list_kind(kind: registry.Kind, console: Console) -> None:
 
 
 def _list_studies(console: Console) -> None:
-    table = Table(
-        title="studies", title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False
-    )
+    import tomllib
+
+    from rich.markup import escape
+
+    table = _table("studies")
     for path in sorted(Path("studies").glob("*.toml")):
         if path.name.endswith(".published.toml"):
             continue
@@ -91,3 +103,9 @@ def _list_studies(console: Console) -> None:
     if not table.row_count:
         table.add_row("  none", "there is no folder studies/ here")
     console.print(table)
+
+
+def _table(title: str) -> Table:
+    from rich.table import Table
+
+    return Table(title=title, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)

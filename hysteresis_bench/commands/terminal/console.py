@@ -5,16 +5,20 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
-from rich.console import Console
-from rich.markup import escape
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 open_option = click.option("--open", "open_page", is_flag=True, help="Open the page in a browser.")
 
 
 def plain_console() -> Console:
     """As wide as the terminal; 120 columns for a file or a pipe, which have no width of their own."""
+    from rich.console import Console
+
     console = Console()
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = 120
@@ -23,6 +27,8 @@ def plain_console() -> Console:
 
 def say_notes(console: Console, notes: Sequence[str]) -> None:
     """What was done to the data, a line each."""
+    from rich.markup import escape
+
     for note in notes:
         console.print(f"[yellow]note:[/] {escape(note)}", highlight=False, soft_wrap=True)
 

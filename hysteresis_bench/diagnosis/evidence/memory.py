@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -88,8 +89,14 @@ def memory(records: Sequence[View]) -> Memory:
     spline = Spline([view.u[view.keep] for view in views])
     curve = np.vstack(spline.of(views, [view.u for view in views]))
 
+    order = np.argsort(blocks.fold, kind="stable")
+    ends = np.cumsum(np.bincount(blocks.fold, minlength=FOLDS))[:-1]
+    sorted_y = y[order]
+
+    @cache
     def errors(law: Law) -> Array:
-        return _left_out(np.hstack([own, *law.columns]), y, blocks.fold)
+        """In the order of the folds."""
+        return _left_out(np.hstack([own, *law.columns])[order], sorted_y, ends)
 
     def score(law: Law) -> float:
         left = errors(law)
@@ -102,7 +109,7 @@ def memory(records: Sequence[View]) -> Memory:
     laws, lagged = [Law("static curve", still, [curve])], []
     if all(view.record.timed for view in records):
         laws.append(own_delays(views, spline))
-        lagged = lagged_laws(views, spline, score)
+        lagged = lagged_laws(views, spline, laws[-1], score)
     telling = _telling(views)
     (static, _), (without, law) = best(laws[:1]), best(laws + lagged if telling else laws)
     branches, _ = best(
@@ -112,7 +119,7 @@ def memory(records: Sequence[View]) -> Memory:
             for columns in _branches(views, spline)
         ]
     )
-    p = _no_better(branches, without, blocks.block)
+    p = _no_better(branches, without, blocks.block[order])
     rmse = [float(np.sqrt(np.mean(left**2))) for left in (static, without, branches)]
     explained = float(np.sqrt(max(rmse[1] ** 2 - rmse[2] ** 2, 0.0))) / span
     needed = p < LEVEL and explained > MATERIAL
@@ -177,20 +184,22 @@ def _settled_play(x: Array, radius: float) -> Array:
     return covariates.play(np.concatenate([x, x]), radius)[x.size :]
 
 
-def _left_out(columns: Array, y: Array, folds: Array) -> Array:
-    """Errors on every fold, of a fit to the others; with the best of a few whiffs of ridge."""
-    size = np.sqrt(np.mean(columns**2, axis=0))
+def _left_out(columns: Array, y: Array, ends: Array) -> Array:
+    """Errors on every fold, of a fit to the others; with the best of a few whiffs of ridge.
+
+    columns, y : samples one fold after the other;  ends : of all folds but the last
+    """
+    size = np.sqrt(np.einsum("ij,ij->j", columns, columns) / y.size)
     scaled = columns[:, size > 0] / size[size > 0]
-    whole, right = scaled.T @ scaled, scaled.T @ y
-    parts = [(scaled[folds == fold], y[folds == fold]) for fold in range(FOLDS)]
-    kept = [(whole - part.T @ part, right - part.T @ values) for part, values in parts]
-    best = np.full(y.size, np.inf)
-    for ridge in RIDGES:
-        penalty = ridge * y.size * np.eye(len(whole))
-        errors = np.empty(y.size)
-        for fold, ((gram, product), (part, values)) in enumerate(zip(kept, parts, strict=True)):
-            errors[folds == fold] = values - part @ np.linalg.solve(gram + penalty, product)
-        best = min(best, errors, key=lambda left: float(left @ left))
+    parts = list(zip(np.split(scaled, ends), np.split(y, ends), strict=True))
+    grams = np.array([part.T @ part for part, _ in parts])
+    products = np.array([part.T @ values for part, values in parts])
+    penalties = np.multiply.outer(RIDGES, y.size * np.eye(grams.shape[1]))
+    kept = (grams.sum(axis=0) - grams)[:, None] + penalties
+    right = np.broadcast_to((products.sum(axis=0) - products)[:, None, :, None], (*kept.shape[:3], 1))
+    found = np.linalg.solve(kept, right)[..., 0]  # (folds, ridges, columns)
+    errors = np.concatenate([values[:, None] - part @ own.T for (part, values), own in zip(parts, found, strict=True)])
+    best: Array = errors[:, np.argmin(np.einsum("ij,ij->j", errors, errors))]
     return best
 
 

@@ -21,7 +21,7 @@ LAGS = 6
 SHARED_DELAYS = np.geomspace(2e-3, 0.25, 9)
 """Delays and lags tried for all records alike, as shares of their shortest period."""
 
-DAMPINGS = (0.03, 0.1, 0.3)
+DAMPINGS = np.array([0.03, 0.1, 0.3])
 
 OWN_DELAY = 0.015
 """A record's own delay is at most this share of its period: an instrument's, not a law."""
@@ -92,13 +92,10 @@ class Spline:
 
     def of(self, views: Sequence[Thinned], inputs: Sequence[Array]) -> list[Array]:
         """Columns of each record's counted samples; inputs : (samples,) a record."""
-        from scipy.interpolate import BSpline
+        from hysteresis_bench.kernels.cubic_spline import cubic_spline
 
-        parts = []
-        for view, values in zip(views, inputs, strict=True):
-            x = np.clip(self.scaled(values[view.keep]), -1.0, 1.0)
-            parts.append(np.hstack([x[:, None] ** (1, 2, 3), BSpline.design_matrix(x, self.knots, 3).toarray()]))
-        return parts
+        kept = (np.clip(self.scaled(part[view.keep]), -1.0, 1.0) for view, part in zip(views, inputs, strict=True))
+        return [cubic_spline(x, self.knots) for x in kept]
 
 
 def delayed_curve(views: Sequence[Thinned], spline: Spline, delays: Sequence[float]) -> Array:
@@ -107,9 +104,9 @@ def delayed_curve(views: Sequence[Thinned], spline: Spline, delays: Sequence[flo
     return np.vstack(spline.of(views, late))
 
 
-def lagged_laws(views: Sequence[Thinned], spline: Spline, score: Score) -> list[Law]:
+def lagged_laws(views: Sequence[Thinned], spline: Spline, own: Law, score: Score) -> list[Law]:
     """The best curve of the delayed input, of the lagged input, lagged curve, and curve with a resonance, alike for
-    all records; and the curve of the input with each record's short delay. Each plus a spectrum of lags."""
+    all records; and `own`, the curve of the input with each record's short delay. Each plus a spectrum of lags."""
     lags, still = lags_of(views), tuple(0.0 for _ in views)
     curves = spline.of(views, [view.u for view in views])
 
@@ -133,7 +130,6 @@ def lagged_laws(views: Sequence[Thinned], spline: Spline, score: Score) -> list[
 
     static = np.vstack(curves)
     grid = SHARED_DELAYS * min(view.period for view in views)
-    own = own_delays(views, spline)
     even = all(np.ptp(np.diff(view.time)) < 1e-6 * (view.time[1] - view.time[0]) for view in views)
     families = (late, wiener, hammerstein, resonance) if even else (late, wiener, hammerstein)
     return [
@@ -155,15 +151,10 @@ def _refined(family: Callable[[float], Law], grid: Array, score: Score) -> Law:
 def _modes(view: Thinned, frequency: float) -> Array:
     """Position and velocity of second-order systems of this natural frequency (rad per unit of time) and several
     dampings, exact for a piecewise linear, evenly sampled input, at rest at first."""
-    from scipy.signal import cont2discrete, lfilter
+    from hysteresis_bench.kernels.second_order import modes
 
-    columns, step = [], float(view.time[1] - view.time[0])
-    for damping in DAMPINGS:
-        for numerator in ([1.0], [1.0 / frequency, 0.0]):
-            denominator = [1.0 / frequency**2, 2.0 * damping / frequency, 1.0]
-            b, a, _ = cont2discrete((numerator, denominator), step, method="foh")
-            columns.append(lfilter(b.ravel(), a, view.u - view.u[0])[view.keep])
-    return np.column_stack(columns)
+    found: Array = modes(float(view.time[1] - view.time[0]), view.u, frequency, DAMPINGS)[view.keep]
+    return found
 
 
 def own_delays(views: Sequence[Thinned], spline: Spline) -> Law:
@@ -178,11 +169,13 @@ def _own_delay(view: Thinned) -> float:
     from scipy.optimize import minimize_scalar
 
     spline = Spline([view.u[view.keep]])
-    own = np.column_stack([np.ones(view.y.size), np.linspace(-1.0, 1.0, view.y.size)])
+    slope = np.linspace(-1.0, 1.0, view.y.size)
 
     def left(delay: float) -> float:
-        columns = np.hstack([own, delayed_curve([view], spline, [delay])])
-        errors = view.y - columns @ np.linalg.lstsq(columns, view.y, rcond=1e-10)[0]
+        columns = delayed_curve([view], spline, [delay])[:, 2:]  # the splines span the powers, and the constant
+        columns[:, 0] = slope
+        gram = columns.T @ columns
+        errors = view.y - columns @ np.linalg.lstsq(gram, columns.T @ view.y, rcond=1e-13)[0]
         return float(errors @ errors)
 
     limit = OWN_DELAY * view.period

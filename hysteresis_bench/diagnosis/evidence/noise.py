@@ -17,7 +17,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import comb, sqrt
+from math import comb, erf, exp, pi, sqrt
+from statistics import NormalDist
 
 import numpy as np
 
@@ -30,6 +31,10 @@ ORDERS = (2, 3, 4, 5, 6, 8, 10, 12)
 LAGS = (1, 2, 4)
 CLIP = 3.0
 """Differences beyond so many times the noise are no noise but a kink."""
+SHRINK = sqrt(1.0 - 2.0 * CLIP * exp(-0.5 * CLIP**2) / sqrt(2.0 * pi) / erf(CLIP / sqrt(2.0)))
+"""RMS of a standard normal variable that is clipped there."""
+MEDIAN = NormalDist().inv_cdf(0.75)
+"""Of the absolute value of a standard normal variable."""
 
 MISSED = 0.25
 """Of the arc between two samples, what a model of the samples gets wrong: it sees no reversal at its very peak."""
@@ -97,13 +102,14 @@ def noise(record: Record) -> Noise:
     quantum = grid_step(y)
     fast, error = fast_noise(time, y)
     input_rms = fast_noise(time, u)[0]
+    slower = tuple(fast_noise(time, y, lag)[0] for lag in LAGS[1:])
     return Noise(
         rms=max(fast, quantum / sqrt(12)),
         standard_error=error,
         input_rms=input_rms,
         through_input=input_rms * _slope(time, u, y, input_rms),
         repeat_rms=_repeat_noise(u, y),
-        by_lag=tuple(fast_noise(time, y, lag)[0] for lag in LAGS),
+        by_lag=(fast, *slower),
         quantum=quantum,
         samples=y.size,
     )
@@ -160,18 +166,9 @@ def fast_noise(time: Array, values: Array, lag: int = 1) -> tuple[float, float]:
 
 
 def _of_order(time: Array, values: Array, order: int, lag: int) -> tuple[float, float]:
-    windows = values.size - order * lag
-    samples = np.arange(windows)[:, None] + lag * np.arange(order + 1)
-    nodes = time[samples] - time[samples].mean(axis=1, keepdims=True)
-    nodes /= np.ptp(nodes, axis=1)[:, None]
-    weights = np.ones(samples.shape)
-    for j in range(order + 1):  # weights of the divided difference: 1 / prod (t_i - t_j)
-        for k in range(order + 1):
-            if k != j:
-                weights[:, j] /= nodes[:, j] - nodes[:, k]
-    weights /= np.linalg.norm(weights, axis=1)[:, None]
-    differences = np.einsum("ij,ij->i", weights, values[samples])
-    rms, kept = clipped_rms(differences)
+    from hysteresis_bench.kernels.divided_differences import divided_differences
+
+    rms, kept = clipped_rms(divided_differences(time, values, order, lag))
     # Neighbouring differences overlap: their squared correlations sum to C(4k, 2k) / C(2k, k)^2.
     overlap = comb(4 * order, 2 * order) / comb(2 * order, order) ** 2
     return rms, rms * sqrt(overlap / (2.0 * max(kept, 1)))
@@ -182,20 +179,11 @@ def clipped_rms(values: Array) -> tuple[float, int]:
 
     Starts at the median absolute value and clips, corrected for the tail that clipping takes off.
     """
-    from scipy.stats import norm
+    from hysteresis_bench.kernels import clipped
 
-    size = np.abs(values)
-    rms = float(np.median(size)) / norm.ppf(0.75)
-    kept = size.size
-    shrink = sqrt(1.0 - 2.0 * CLIP * norm.pdf(CLIP) / (2.0 * norm.cdf(CLIP) - 1.0))
-    for _ in range(20):
-        inside = size <= CLIP * rms
-        kept = int(np.count_nonzero(inside))
-        new = float(np.sqrt(np.mean(size[inside] ** 2))) / shrink if kept else 0.0
-        if abs(new - rms) <= 1e-4 * rms:
-            return new, kept
-        rms = new
-    return float(rms), kept
+    sizes = np.abs(values)
+    rms, kept = clipped.clipped_rms(sizes, float(np.median(sizes)) / MEDIAN, CLIP, SHRINK)
+    return float(rms), int(kept)
 
 
 def grid_step(values: Array) -> float:

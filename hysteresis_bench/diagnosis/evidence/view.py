@@ -44,7 +44,8 @@ class View:
     @cached_property
     def turns(self) -> Array:
         u = self.record.input
-        return covariates.turning_points(u, covariates.resolution_of(u, fast_noise(self.record.time, u)[0]))
+        rms = fast_noise(self.record.time, u)[0] if self.record.history else self.noise.input_rms
+        return covariates.turning_points(u, covariates.resolution_of(u, rms))
 
     @cached_property
     def rate(self) -> Array:

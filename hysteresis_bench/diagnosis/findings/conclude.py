@@ -21,6 +21,7 @@ from hysteresis_bench.diagnosis.findings.ties import Tie, tie
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import response_table, simulated
 from hysteresis_bench.fit.identifiability.analysis import analyse
@@ -74,6 +75,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         warnings=(*dataset.notes, *warnings(outcome), *_open(after, prepared)),
         units=dataset.units,
         given_up=found.given_up,
+        unseen=unseen_rmse(found.thin, found.final) if len(found.thin.stack.records) > 1 else found.final.cv_rmse,
     )
 
 

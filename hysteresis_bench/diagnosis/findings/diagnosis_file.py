@@ -99,6 +99,8 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "offset_of_both": offset if offset and list(content["effects"]) != [offset] else None,
         "equation": left,
         "experiment": None,
+        "unseen": None,
+        "laws": None,
     }
     candidates = [
         {"judgement": _judgement(c["adopted"], c["tied_with"], c["p_value"], c["advantage"]), **c}
@@ -144,6 +146,8 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "unexplained": None if diagnosis.equation is None else str(diagnosis.equation),
         "equation": _equation(diagnosis.equation),
         "given_up": None if diagnosis.given_up is None else asdict(diagnosis.given_up),
+        "unseen": diagnosis.unseen,
+        "laws": None if diagnosis.laws is None else diagnosis.laws.as_dict(),
         "split": dict(diagnosis.split),
         "advice": diagnosis.advice.words if diagnosis.advice else None,
         "experiment": _experiment(diagnosis.advice),

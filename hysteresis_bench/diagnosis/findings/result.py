@@ -16,6 +16,7 @@ from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.laws.comparison import Comparison
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.fit.model_file import FittedModel
 
@@ -31,7 +32,9 @@ class Diagnosis:
     to the noise;  responses : record, role, time, input, output, before, after over the scored samples
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
-    equation : what describes the residual that remains;  model : ready to predict and to be written
+    unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
+    laws : all laws, where no model was asked about;  equation : what describes the residual that remains
+    model : ready to predict and to be written
     """
 
     model_name: str
@@ -56,6 +59,8 @@ class Diagnosis:
     warnings: tuple[str, ...]
     units: Mapping[str, str]
     given_up: Fallback | None
+    unseen: float
+    laws: Comparison | None = None
 
     def _repr_html_(self) -> str:
         """For a notebook: the headline, the errors before and after, the candidates, the warnings."""

@@ -1,4 +1,4 @@
-"""Several hypotheses at once: forked processes that share the data."""
+"""Several hypotheses, or laws, at once: forked processes that share the data."""
 
 from __future__ import annotations
 
@@ -8,14 +8,15 @@ import signal
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from types import TracebackType
-from typing import Any
+from typing import Any, Generic, Self, TypeVar
 
-from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.progress import OnStep, Step, quiet
 from hysteresis_bench.study.execution.lifetime import end_with
 
-_fitter: Fitter
+Answer = TypeVar("Answer")
+
+_fitter: Any
 
 WORDS = {
     "extended": "one effect more",
@@ -25,10 +26,13 @@ WORDS = {
 }
 
 
-class Workers:
-    """Runs methods of a fitter, in order of the answers; in this process where there is one job, or no fork."""
+class Workers(Generic[Answer]):
+    """Runs methods of a fitter, in order of the answers; in this process where there is one job, or no fork.
 
-    def __init__(self, fitter: Fitter, jobs: int, on_step: OnStep = quiet) -> None:
+    Answer : what the methods return;  on_step : told of every answer
+    """
+
+    def __init__(self, fitter: Any, jobs: int, on_step: OnStep = quiet) -> None:
         self._on_step = on_step
         self._fitter = fitter
         self._pool: ProcessPoolExecutor | None = None
@@ -39,7 +43,7 @@ class Workers:
                 jobs, mp_context=context, initializer=_install, initargs=(fitter, os.getpid())
             )
 
-    def __enter__(self) -> Workers:
+    def __enter__(self) -> Self:
         return self
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
@@ -49,15 +53,15 @@ class Workers:
         if self._pool:
             self._pool.shutdown(cancel_futures=True)
 
-    def map(self, questions: Sequence[tuple[Any, ...]]) -> list[Hypothesis]:
+    def map(self, questions: Sequence[tuple[Any, ...]]) -> list[Answer]:
         """questions : (method's name, *arguments)"""
         if self._pool and len(questions) > 1:
-            answers: Iterator[Hypothesis] = self._pool.map(_answer, questions)
+            answers: Iterator[Answer] = self._pool.map(_answer, questions)
         else:
             answers = (getattr(self._fitter, method)(*arguments) for method, *arguments in questions)
         return list(self._told(answers, questions))
 
-    def _told(self, answers: Iterator[Hypothesis], questions: Sequence[tuple[Any, ...]]) -> Iterator[Hypothesis]:
+    def _told(self, answers: Iterator[Answer], questions: Sequence[tuple[Any, ...]]) -> Iterator[Answer]:
         """The answers, counted as they come."""
         if not questions:
             return
@@ -70,7 +74,7 @@ class Workers:
             yield answer
 
 
-def _install(fitter: Fitter, parent: int) -> None:
+def _install(fitter: Any, parent: int) -> None:
     global _fitter
     _fitter = fitter
     signal.signal(signal.SIGINT, signal.SIG_DFL)  # ends without a traceback of its own
@@ -78,7 +82,6 @@ def _install(fitter: Fitter, parent: int) -> None:
     end_with(parent)
 
 
-def _answer(question: tuple[Any, ...]) -> Hypothesis:
+def _answer(question: tuple[Any, ...]) -> Any:
     method, *arguments = question
-    answer: Hypothesis = getattr(_fitter, method)(*arguments)
-    return answer
+    return getattr(_fitter, method)(*arguments)

@@ -66,7 +66,7 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     )
     possible, impossible = thin.stack.candidates()
     on_step = question.options.on_step
-    with Workers(thin, question.options.jobs or min(4, os.cpu_count() or 1), on_step) as workers:
+    with Workers[Hypothesis](thin, question.options.jobs or min(4, os.cpu_count() or 1), on_step) as workers:
         selection = Selection(thin, workers, evidence.floor, possible)
         on_step(Step("the bare model"))
         base = thin.bare(frozenset({registry.RECORD_OFFSET}))

@@ -76,7 +76,7 @@ class Selection:
     """
 
     fitter: Fitter
-    workers: Workers
+    workers: Workers[Hypothesis]
     floor: float
     candidates: tuple[str, ...]
     rounds: list[Round] = field(default_factory=list)

@@ -55,10 +55,12 @@ def write_control(folder: Path, comparison: Comparison, model: str) -> Path:
 
 
 def print_control(comparison: Comparison, console: Console) -> None:
-    """T_rmse of every controller on every reference, the answer, the warnings."""
+    """The warnings, T_rmse of every controller on every reference, the answer."""
     from rich.markup import escape
     from rich.table import Table as Terminal
 
+    for warning in comparison.warnings:
+        console.print(f"[yellow]note:[/] {escape(warning)}", highlight=False)
     scores = comparison.scores
     errors = scores.pivot(index="controller", columns="reference", values="t_rmse")
     references = list(dict.fromkeys(scores["reference"]))
@@ -77,8 +79,6 @@ def print_control(comparison: Comparison, console: Console) -> None:
     console.print(table)
     for sentence in answer(scores):
         console.print(sentence, highlight=False)
-    for warning in comparison.warnings:
-        console.print(f"[yellow]note:[/] {escape(warning)}", highlight=False)
 
 
 def answer(scores: pd.DataFrame) -> list[str]:

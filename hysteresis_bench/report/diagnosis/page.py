@@ -17,6 +17,7 @@ from hysteresis_bench.report.diagnosis.before_after import (
     ties_in_words,
 )
 from hysteresis_bench.report.diagnosis.tables import added_table, candidates_table, tests_tables
+from hysteresis_bench.report.laws.tables import laws_figure, laws_table
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
 from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.shared.text import listed, sentence
@@ -55,6 +56,10 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         errors_table(found, found["floor"], units, more=offset),
     ]
     yield Section("errors", "The error, before and after", errors)
+    if laws := found["laws"]:
+        drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
+        table = laws_table(laws["laws"], found["model"], laws["floor"], units)
+        yield Section("laws", "Which law", [laws["words"], Figures([drawn]), table])
     yield _records(folder, kept)
     yield _considered(kept)
     yield Section("advice", "What to measure next", [found["advice"]]) if found["advice"] else None

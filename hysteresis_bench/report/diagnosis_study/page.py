@@ -36,7 +36,9 @@ def write_diagnosis_study_page(folder: Path) -> Path:
     known, others = _halves(folder)
     cases = [*known, *others]
     if not cases:
-        raise UserError(str(folder), "holds no cases: its folder cases is missing or empty. Run the study again.")
+        raise UserError(
+            str(folder), f"holds no cases: neither its folder cases nor {CASES} has any. Run the study again."
+        )
     confusions = _confusion(folder, "known", known) + _confusion(folder, "rigs", others)
     benches = _benches([bench.name for bench in study.bench], cases)
     wrong = _wrong([case for case in cases if case.status == "done" and not case.right])

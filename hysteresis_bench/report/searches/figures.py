@@ -17,6 +17,9 @@ from hysteresis_bench.report.trials.problem import INF, NEAR, Problem
 EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
 
+DOTS = 500
+"""Trials of an optimizer that are drawn one by one: more lie on top of each other, and a page has to be loaded."""
+
 
 def convergence(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look], budget: int) -> Picture:
     """Best fitness so far against evaluations: median and quartiles over the trials."""
@@ -92,7 +95,8 @@ def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str,
         for row, (label, values) in enumerate(ratios.items()):
             colour = looks[label].colour if label in looks else INK
             shown = values[np.isfinite(values)]
-            axes.plot(shown, np.full(shown.size, row), "o", color=colour, markersize=2.6, alpha=0.35, markeredgewidth=0)
+            dots = _spread(shown)
+            axes.plot(dots, np.full(dots.size, row), "o", color=colour, markersize=2.6, alpha=0.35, markeredgewidth=0)
             quartiles = [min(stats.quantile(values, q), top) for q in (0.25, 0.75)]
             axes.plot(quartiles, [row, row], color=colour, linewidth=2.2, solid_capstyle="butt", alpha=0.8)
             median = stats.quantile(values, 0.5)
@@ -114,7 +118,17 @@ def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str,
     alt = f"All trials on {problem.name}. Best median first: {', '.join(ratios)}."
     caption = f"{problem.name}. Final fitness of every trial over the best known to the study. Dot: a trial; bar: "
     caption += "quartiles; tick: median; dotted: 1 % above the best known, where success begins."
+    if any(np.isfinite(values).sum() > DOTS for values in ratios.values()):
+        caption += f" Where there are more than {DOTS} trials, as many are drawn, evenly from the best to the worst."
     return picture(folder, name, (4.6, 0.9 + 0.185 * len(ratios)), alt=alt, caption=caption, draw=draw)
+
+
+def _spread(values: Array) -> Array:
+    """DOTS of them at most, evenly from the smallest to the largest."""
+    if values.size <= DOTS:
+        return values
+    even: Array = np.sort(values)[np.linspace(0, values.size - 1, DOTS).round().astype(int)]
+    return even
 
 
 def _plain_ticks(axes: Any, top: float) -> None:

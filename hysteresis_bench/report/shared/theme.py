@@ -76,14 +76,23 @@ def picture(
     name : of the file; what no file name should hold becomes a hyphen
     """
     import matplotlib
+    from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure
+
+    from hysteresis_bench.report.shared.log_labels import in_plain_powers
 
     name = re.sub(r"[^A-Za-z0-9-]+", "-", name).strip("-")
     with matplotlib.rc_context({**STYLE, "svg.hashsalt": name}):
         figure = Figure(figsize=size)
         draw(figure)
+        in_plain_powers(figure)
+        canvas = FigureCanvasSVG(figure)
+        # savefig lays the figure out, draws it unseen, then draws it: the first and the last are enough
+        if layout := figure.get_layout_engine():
+            layout.execute(figure)
+        figure.set_layout_engine("none")
         text = io.StringIO()
-        figure.savefig(text, format="svg", metadata={"Date": None, "Creator": None})
+        canvas.print_svg(text, metadata={"Date": None, "Creator": None})  # type: ignore[no-untyped-call]
     svg = re.sub(r"\s*<metadata>.*?</metadata>", "", text.getvalue(), flags=re.S)
     (folder / "figures").mkdir(exist_ok=True)
     (folder / "figures" / f"{name}.svg").write_text(svg, encoding="utf-8")

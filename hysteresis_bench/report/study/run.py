@@ -6,17 +6,23 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from hysteresis_bench.report.shared.blocks import Block, Details, Table, Terms
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Table, Terms
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import listed, whole
 from hysteresis_bench.report.trials.problem import Problem
+from hysteresis_bench.study.origin import made_with
 from hysteresis_bench.study.results import Results
 
 
 def section(results: Results, here: Sequence[Problem]) -> Section:
     """In words, with the trials that failed, and everything that was set."""
     failed, plugins = _failures(results), _plugins(results)
-    blocks: list[Block] = [in_words(results.trials, here), *([failed] if failed else []), Terms(_facts(results))]
+    blocks: list[Block] = [in_words(results.trials, here), *([failed] if failed else [])]
+    if notes := results.provenance.get("notes"):
+        blocks.append(Bullets(notes))
+    if results.mixed:
+        blocks += [Bullets(results.mixed), Details("Which trials were made with what", [_origins(results)])]
+    blocks.append(Terms(_facts(results)))
     blocks.append(Details(f"The {len(plugins.rows)} optimizers and their settings", [plugins]))
     return Section("run", "What was run", blocks)
 
@@ -42,6 +48,18 @@ def _failures(results: Results) -> Table | None:
     counted = other.assign(reason=other["reason"].fillna("")).value_counts(keys, sort=False).reset_index()
     rows = [[str(value) for value in row] for row in counted.to_numpy()]
     return Table("Trials that failed or ended early", [*(key.capitalize() for key in keys), "Trials"], rows)
+
+
+def _origins(results: Results) -> Table:
+    rows = []
+    for words, trials in made_with(results.origins).items():
+        numbers: dict[tuple[str, str], list[int]] = {}
+        for problem, optimizer, number in sorted(trials):
+            numbers.setdefault((problem, optimizer), []).append(number)
+        rows += [[words, *pair, ", ".join(map(str, found))] for pair, found in numbers.items()]
+    return Table(
+        "What the trials were made with, as far as it differs", ["Made with", "Problem", "Optimizer", "Trials"], rows
+    )
 
 
 def _facts(results: Results) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.study.reader import Reader
+from hysteresis_bench.study.kept_files.reader import Reader
 
 CLOSING, OUTCOME = "closing", "closing.json"
 DIAGNOSIS, MODEL, RESPONSES, PAGE = "diagnosis.json", "model.json", "responses.csv", "diagnosis.html"

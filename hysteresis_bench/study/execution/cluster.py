@@ -18,6 +18,8 @@ PATIENCE = 30
 """Seconds to wait for the scheduler and for its first worker."""
 AHEAD = 2
 """Tickets a thread that are underway, so that none waits for the network."""
+IDLE = 10.0
+"""Seconds that a Dask worker's pool waits for the next ticket before it ends."""
 
 _of_thread = threading.local()
 
@@ -86,13 +88,42 @@ class Cluster(Generic[T, E]):
 
 
 def carried_out(work: bytes, ticket: Any) -> tuple[Any, str, str]:
-    """On a Dask worker: a ticket by this thread's pool, which stays for the next one of the same work."""
-    if getattr(_of_thread, "work", None) != work:
-        if before := getattr(_of_thread, "pool", None):
-            before.__exit__(None, None, None)
-        _of_thread.pool, _of_thread.work = Pool(pickle.loads(work), 1, _memory()), work
-    ((_, outcome, status, reason),) = _of_thread.pool.run([ticket])
-    return outcome, status, reason
+    """On a Dask worker: a ticket by this thread's pool."""
+    if not hasattr(_of_thread, "pool"):
+        _of_thread.pool = _KeptPool()
+    answer: tuple[Any, str, str] = _of_thread.pool.run(work, ticket)
+    return answer
+
+
+class _KeptPool:
+    """A pool that stays for the next ticket of the same work, and ends where none comes: the study may be over, or its
+    runner killed."""
+
+    def __init__(self) -> None:
+        self._lock = threading.Lock()
+        self._pool: Pool[Any, Any] | None = None
+        self._work = b""
+        self._end = threading.Timer(IDLE, self._close)
+
+    def run(self, work: bytes, ticket: Any) -> tuple[Any, str, str]:
+        """outcome or None, status, reason"""
+        self._end.cancel()
+        if work != self._work:
+            self._close()
+        with self._lock:
+            if self._pool is None:
+                self._pool, self._work = Pool(pickle.loads(work), 1, _memory()), work
+            ((_, outcome, status, reason),) = self._pool.run([ticket])
+        self._end = threading.Timer(IDLE, self._close)
+        self._end.daemon = True
+        self._end.start()
+        return outcome, status, reason
+
+    def _close(self) -> None:
+        with self._lock:
+            if self._pool is not None:
+                self._pool.__exit__(None, None, None)
+                self._pool = None
 
 
 def _memory() -> int:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.execution.trial import Ticket
+from hysteresis_bench.study.kept_files.json_forms import check_provenance
+from hysteresis_bench.study.kept_files.reader import Reader
 from hysteresis_bench.study.lock import PART
 from hysteresis_bench.study.provenance import differences
 from hysteresis_bench.study.results import FINISHED, PROVENANCE, PUBLISHED, STUDY
@@ -92,7 +94,7 @@ def _same_study(folders: Sequence[Path]) -> Study:
     whole = _provenance(folders[0])
     for folder in folders[1:]:
         other, its_text = read_study(folder / STUDY)
-        found = differences(study, other, whole, _provenance(folder))
+        found = differences(study.identity(), other.identity(), whole, _provenance(folder))
         if not found and its_text != text:
             found = ["its study file is not the same."]
         faults += [f"{folder}: {fault}" for fault in found]
@@ -101,9 +103,9 @@ def _same_study(folders: Sequence[Path]) -> Study:
     return study
 
 
-def _provenance(folder: Path) -> dict[str, dict[str, dict[str, object]]]:
-    try:
-        found: dict[str, dict[str, dict[str, object]]] = json.loads((folder / PROVENANCE).read_text(encoding="utf-8"))
-    except (OSError, ValueError) as error:
-        raise UserError(str(folder / PROVENANCE), f"cannot be read: {error}.") from None
+def _provenance(folder: Path) -> dict[str, Any]:
+    reader = Reader(folder)
+    found = reader.json(PROVENANCE, check_provenance)
+    if not found:
+        raise UserError(str(folder / PROVENANCE), reader.damages or "is missing.")
     return found

@@ -18,6 +18,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
+from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.study.execution.lifetime import adopt_orphans, end_group, end_orphans, end_with
 from hysteresis_bench.study.execution.messages import Inbox, receive, send
 from hysteresis_bench.study.execution.worker import Prepare, work
@@ -100,13 +101,14 @@ def serve(descriptor: int) -> None:
         return
     resource.setrlimit(resource.RLIMIT_DATA, (memory, resource.getrlimit(resource.RLIMIT_DATA)[1]))
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
-    for step in warm:
-        with suppress(Exception):  # the ticket that needs it will tell
-            step()
-    gc.freeze()
-    with suppress(EOFError, OSError):
-        send(control, READY)
-        _Forks(control, prepare).serve()
+    with economical():
+        for step in warm:
+            with suppress(Exception):  # the ticket that needs it will tell
+                step()
+        gc.freeze()
+        with suppress(EOFError, OSError):
+            send(control, READY)
+            _Forks(control, prepare).serve()
 
 
 class _Forks:

@@ -188,6 +188,23 @@ class EffectContract(PluginContract):
             "the same data and parameters in other units give another answer: a unit is not what it says.",
         )
 
+    def test_it_is_affine_where_it_says_so(self, plugin: str) -> None:
+        """Where it says `affine`, the output is affine in what is wrapped, jointly with its `linear` parameters."""
+        effect = self.build(plugin)
+        names = [parameter.name for parameter in effect.parameters]
+        strange = sorted({*effect.linear} - {*names})
+        expect(not strange, f"it calls {', '.join(strange)} linear and has no such parameter.")
+        expect(effect.affine or not effect.linear, "what is linear in it is so beside what is wrapped: say affine too.")
+        record = measured()
+        one = _values(effect, record, 12)
+        other, between = one.copy(), one.copy()
+        rows = [0, 1, *(2 + names.index(name) for name in effect.linear)]  # the cubic is linear in both of its own
+        other[rows] = one[rows][:, ::-1]
+        between[rows] = 0.3 * one[rows] + 0.7 * other[rows]
+        low, high, middle = (_around(effect).respond(record, values) for values in (one, other, between))
+        error, scale = float(np.max(np.abs(0.3 * low + 0.7 * high - middle))), float(np.max(np.abs([low, high])))
+        expect(not effect.affine or error <= 1e-9 * scale, f"it is not affine: off by {error:.2g} of {scale:.2g}.")
+
     def test_it_applies_to_a_good_record(self, plugin: str) -> None:
         """It has no reason against an ordinary record."""
         reason = self.build(plugin).inapplicable([measured()])

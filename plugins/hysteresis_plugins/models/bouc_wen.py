@@ -18,10 +18,12 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models._data import falling, input_span, offset, output_span, sense
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
 
-OFFSET_SHARE = 0.02
-"""Share of the output's span from which a record's offset is worth a word."""
+ANTICLOCKWISE, CLOCKWISE = 2.0, -200.0
+"""Largest alpha of either sense in the box that data give. A lagging response of alpha above 1 falls after a reversal;
+what sticks is stiffer than the linear response by -alpha."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +44,7 @@ class BoucWen(Model):
         Parameter("gamma", 0.0, 5.0, unit="1/{input}", meaning="shape of the loop: relaxation by direction"),
         Parameter("d", 0.0, 5.0, unit="{output}/{input}", meaning="linear response"),
     )
+    linear = ("d",)
     offers = OFFERS
     example = Example(4.0, {"alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2}, stream=0)
 
@@ -50,11 +53,7 @@ class BoucWen(Model):
     def __post_init__(self) -> None:
         if not 1.0 <= self.n < np.inf:
             raise ValueError(f"n = {self.n} must be a finite number of at least 1.")
-
-    @property
-    def linear(self) -> tuple[str, ...]:
-        """The relaxation knows the output's scale, unless n is 1."""
-        return ("d",) if self.n == 1.0 else ()
+        object.__setattr__(self, "linear", ("d",) if self.n == 1.0 else ())  # |h|^n does not scale with h
 
     def simulate(self, signal: Signal, p: Any) -> Array:
         return with_eddy_current(self._plain, self._dragged, signal, p)
@@ -74,60 +73,18 @@ class BoucWen(Model):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """From the spans of the data: d up to four times their ratio; the loop relaxes over a thousandth of
-        the input's span to thirty spans (for n other than 1, beta and gamma scale with the output too)."""
+        the input's span to thirty spans (for n other than 1, beta and gamma scale with the output too). Alpha is on
+        the side of the loops' sense, positive for loops that run anticlockwise; on both where the data do not say."""
         alpha, beta, gamma, d = self.parameters
-        span = input_span(records)
+        span, side = input_span(records), sense(records)
         ratio = output_span(records) / span
         unit = 1.0 / (span * output_span(records) ** (self.n - 1.0))
         return (
-            alpha.within(0.0, 2.0),
+            alpha.within(CLOCKWISE if side <= 0 else 0.0, ANTICLOCKWISE if side >= 0 else 0.0),
             beta.within(0.03 * unit, 1000.0 * unit, "log"),
             gamma.within(-100.0 * unit, 100.0 * unit),
             d.within(0.0, 4.0 * ratio),
         )
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
-        measured = [record for record in records if record.output is not None]
-        falling = [record.name for record in measured if _slope(record) < 0.0]
-        offset = [record.name for record in measured if _offset(record) > OFFSET_SHARE]
-        said = []
-        if falling:
-            said.append(
-                f"The output falls as the input rises in {', '.join(falling)}; d is positive in this box. "
-                "Turn the output's sign with --flip."
-            )
-        if offset and not falling:
-            said.append(
-                f"The output does not start at d times the input in {', '.join(offset)}, and the model has no offset. "
-                "Add the effect bias, or record-offset where it differs from record to record."
-            )
-        return tuple(said)
-
-
-def input_span(records: Sequence[Record]) -> float:
-    """Largest span of the input in one record, 1 where it never moves."""
-    return max(float(np.ptp(record.input)) for record in records) or 1.0
-
-
-def output_span(records: Sequence[Record]) -> float:
-    """Largest span of the output in one record, 1 where there is none."""
-    return max((float(np.ptp(record.measured)) for record in records if record.output is not None), default=0.0) or 1.0
-
-
-def _slope(record: Record) -> float:
-    """Covariance of input and output: its sign is the response's."""
-    driven = record.input[record.scored] - np.mean(record.input[record.scored])
-    return float(driven @ record.measured)
-
-
-def _offset(record: Record) -> float:
-    """|output - slope * input| of the middle of the loop, as a share of the output's span."""
-    driven, measured = record.input[record.scored], record.measured
-    centre_in, centre_out = (0.5 * (values.min() + values.max()) for values in (driven, measured))
-    span_in, span_out = float(np.ptp(driven)), float(np.ptp(measured))
-    if span_in == 0.0 or span_out == 0.0:
-        return 0.0
-    # a loop that starts at rest may sit half its own height off the line, so that much is no offset
-    slope = span_out / span_in
-    height = float(np.ptp(measured - slope * driven))
-    return float(max(abs(centre_out - slope * centre_in) - height, 0.0) / span_out)
+        return falling(records, "d is positive in this box") or offset(records)

@@ -57,6 +57,7 @@ class FreeEnergy(Model):
         ),
         Parameter("alpha", 0.01, 1000.0, "1/{input}^2", "log", meaning="scale of the densities"),
     )
+    linear = ("M_R",)
     offers = OFFERS
     example = Example(4.0, {"M_R": 1.0, "eta": 4.0, "H_c": 1.1, "b": 1.0, "c": 0.35, "alpha": 0.6}, stream=1)
 
@@ -75,10 +76,6 @@ class FreeEnergy(Model):
         from hysteresis_bench.kernels.free_energy import quadrature
 
         return quadrature(self.rule, self.nodes, self.span)
-
-    @property
-    def linear(self) -> tuple[str, ...]:
-        return ("M_R",)
 
     def simulate(self, signal: Signal, p: Any) -> Array:
         for name in ("H_c", "b", "c", "eta"):

@@ -40,6 +40,8 @@ class Hammerstein(Model):
         Parameter("k_over_m", 1e4, 1e6, unit="1/s^2", scaling="log", meaning="stiffness over mass"),
     )
 
+    linear = ("b",)
+
     n: float = 1.0
 
     def __post_init__(self) -> None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Example, Model
+from hysteresis_bench.contracts import Effect, Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
@@ -34,14 +34,14 @@ class JilesAtherton(Model):
     while (M_an - M_irr) delta < 0 the irreversible susceptibility is negative.
     """
 
-    parameters = (
+    parameters: ClassVar[tuple[Parameter, ...]] = (
         Parameter("alpha", 1e-14, 1e-2, FIELD_PER_MAGNETIZATION, meaning="interaction between domains"),
         Parameter("a", 1e-2, 1e4, "{input}", meaning="form factor of the anhysteretic curve"),
         Parameter("k", 1e-2, 1e4, "{input}", meaning="hysteresis loss, pinning"),
         Parameter("M_s", 1e5, 3e7, "{output}/mu0", meaning="saturation magnetization"),
         Parameter("c", 1e-2, 3.0, "1", meaning="reversibility of wall motion"),
     )
-    offers = OFFERS
+    offers: ClassVar[Mapping[str, Effect]] = OFFERS
     # with these values the law falls right after a reversal, where eddy currents have no solution
     example = Example(
         5000.0,

@@ -25,9 +25,9 @@ NOTHING_LEFT = 1e-9
 """Share of a typical first loss below which there is nothing left to find."""
 APART = 0.05
 """Largest distance along an axis of the unit box by which two starts of a round differ at least."""
-FIRST, LAST = 6, 40
+FIRST, LAST = 4, 40
 """Iterations of all descents of a round, then of the best ones."""
-ROUGH, EXACT = 1e-4, 1e-7
+ROUGH, EXACT = 1e-2, 1e-5
 """Relative fall of the loss by which the former and the latter end."""
 
 
@@ -68,13 +68,16 @@ class MultistartLeastSquares(Optimizer):
 
 
 def _screened(objective: Objective, count: int, rng: Generator) -> tuple[Array, Array]:
-    """Points (dimension, n) of a round, for about `count` evaluations, and what rises with their losses."""
+    """Points (dimension, n) of a round, for at most `count` evaluations, and what rises with their losses.
+
+    Half as many evaluations where coordinates are eliminated, as fewer are left to be filled with points.
+    """
     if not objective.linear:
         points = _spread(objective.dimension, count, rng)
         return points, objective.many(points)
     from hysteresis_bench.kernels.variable_projection import eliminate
 
-    fewer = max(1, count // (len(objective.linear) + 1)) if len(objective.linear) < objective.dimension else 1
+    fewer = max(1, count // 2 // (len(objective.linear) + 1)) if len(objective.linear) < objective.dimension else 1
     return eliminate(objective.residual_swarm, _spread(objective.dimension, fewer, rng), objective.linear)
 
 

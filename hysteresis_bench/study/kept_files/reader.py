@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, TypeVar
@@ -26,16 +26,18 @@ class Reader:
     folder: Path
     damages: list[str] = field(default_factory=list)
 
-    def json(self, name: str) -> dict[str, Any]:
-        """A JSON object; empty where there is none."""
-        return self._read(name, {}, lambda path: _table(json.loads(path.read_text(encoding="utf-8"))))
+    def json(self, name: str, check: Callable[[Mapping[str, Any]], None] = lambda content: None) -> dict[str, Any]:
+        """A JSON object; empty where there is none. check : raises ValueError for one that is not the right one"""
+        return self._read(name, {}, lambda path: _table(json.loads(path.read_text(encoding="utf-8")), check))
 
     def toml(self, name: str) -> dict[str, Any]:
         return self._read(name, {}, lambda path: tomllib.loads(path.read_text(encoding="utf-8")))
 
-    def csv(self, name: str, columns: Sequence[str] = ()) -> pd.DataFrame:
-        """A table that has these columns; empty where there is none."""
-        return self._read(name, pd.DataFrame(), lambda path: _whole(path, columns))
+    def csv(
+        self, name: str, columns: Sequence[str] = (), check: Callable[[pd.DataFrame], None] = lambda table: None
+    ) -> pd.DataFrame:
+        """A table that has these columns; empty where there is none. check : raises ValueError for one that is none"""
+        return self._read(name, pd.DataFrame(), lambda path: _whole(path, columns, check))
 
     def said(self, name: str, error: Exception | str) -> None:
         reason = " ".join(str(error).split())[:200]
@@ -52,17 +54,20 @@ class Reader:
             return absent
 
 
-def _table(content: Any) -> dict[str, Any]:
+def _table(content: Any, check: Callable[[Mapping[str, Any]], None]) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise ValueError(f"a {type(content).__name__} where an object belongs")
+    check(content)
     return content
 
 
-def _whole(path: Path, columns: Sequence[str]) -> pd.DataFrame:
+def _whole(path: Path, columns: Sequence[str], check: Callable[[pd.DataFrame], None]) -> pd.DataFrame:
     if not path.read_bytes().endswith(b"\n"):
         raise ValueError("it ends in the middle of a line")
     frame = read_table(path)
     missing = [name for name in columns if name not in frame.columns]
     if missing and not (frame.empty and frame.columns.empty):
         raise ValueError(f"it has no column {missing[0]}")
+    if not frame.empty:
+        check(frame)
     return frame

@@ -1,0 +1,143 @@
+"""Every law beside every other, beside a polynomial without memory, and beside the noise."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
+from hysteresis_bench.diagnosis.evidence.noise_floor import floor_of
+from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
+from hysteresis_bench.diagnosis.laws.choice import choose
+from hysteresis_bench.diagnosis.laws.law import Law, Laws
+from hysteresis_bench.diagnosis.preparation import thinned
+from hysteresis_bench.diagnosis.question import FEWEST_SAMPLES, DiagnosisOptions
+from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.signals import Dataset
+
+BASELINE = "cubic polynomial"
+PASSES = 8
+"""Of a closed loop before it is scored, with `settle`. A fit finds out how many its law needs; here all get as many."""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """table : a row a law, the best first: law, parameters, fitted, unseen, held_out (RMSE, unit of the output),
+    seconds (CPU), reason (why there is no fit)
+    chosen : the simplest law that predicts as well as the best, "" where none predicts better than the polynomial
+    words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
+    notes : how it was made
+    """
+
+    table: pd.DataFrame
+    chosen: str
+    words: str
+    floor: float
+    units: dict[str, str]
+    notes: tuple[str, ...] = ()
+
+    def as_dict(self) -> dict[str, Any]:
+        """For a JSON file."""
+        rows = self.table.astype(object).where(self.table.notna(), None).to_dict("records")
+        return {"chosen": self.chosen or None, "words": self.words, "floor": self.floor, "laws": rows}
+
+
+@economical()
+def compare(
+    dataset: Dataset,
+    models: Sequence[str] = (),
+    effects: Sequence[str] = (),
+    *,
+    options: DiagnosisOptions | None = None,
+) -> Comparison:
+    """Fit every law to the fitted records, and predict what it did not see.
+
+    models : by name, all registered ones where empty;  effects : known to act around every law
+    Held-out records are predicted and never choose. Raises UserError telling every fault at once.
+    """
+    options = options or DiagnosisOptions()
+    seen = _prepared(dataset, models, effects, options)
+    names = tuple(models) or registry.names("models")
+    views = views_of(seen.fitted)
+    floor = floor_of(views, pooled_noise([view.noise for view in views]))
+    thin = Laws(thinned(views), seen, tuple(effects), options.seed)
+    jobs = options.jobs or min(4, os.cpu_count() or 1)
+    with Workers[Law](thin, jobs, options.on_step) as workers:
+        laws = sorted(workers.map([("law", name) for name in names]), key=lambda law: law.rmse)
+    without = baseline_errors(thin.records)
+    chosen, words = choose(laws, without, thin.records)
+    rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]
+    table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
+    return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options))
+
+
+def _prepared(dataset: Dataset, models: Sequence[str], effects: Sequence[str], options: DiagnosisOptions) -> Dataset:
+    preparation = Preparation(options.input_offset, options.flip, options.skip)
+    known = registry.names("models")
+    faults = [f'no model "{name}". {nearest(name, known)}' for name in models if name not in known]
+    faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
+    faults += [fault for name in effects for fault in registry.faults("effects", name, {})]
+    faults += preparation.faults(dataset.records)
+    faults += open_loops(dataset.records) if options.settle and not faults else []
+    if faults:
+        raise UserError("compare", faults)
+    seen = dataset.map(preparation)
+    for record in seen.fitted:
+        if np.ptp(record.measured) == 0:
+            faults.append(f"record {record.name}: the output is constant; there is nothing to compare.")
+        elif record.measured.size < FEWEST_SAMPLES:
+            faults.append(f"record {record.name}: {record.measured.size} samples are too few; {FEWEST_SAMPLES} needed.")
+    if faults:
+        raise UserError("compare", faults)
+    return seen.map(lambda record: record.settled(PASSES)) if options.settle else seen
+
+
+def _notes(seen: Dataset, options: DiagnosisOptions) -> tuple[str, ...]:
+    fitted, held_out = ([record.name for record in records] for records in (seen.fitted, seen.held_out))
+    settled = f" Every loop was passed {PASSES} times before it was scored." if options.settle else ""
+    return (
+        *seen.notes,
+        f"Fitted: {', '.join(fitted)}." + (f" Held out: {', '.join(held_out)}." if held_out else ""),
+        f"Two searches by {registry.SEARCH} a law, seed {options.seed}, and an offset a record.{settled}",
+    )
+
+
+def _row(law: Law) -> dict[str, object]:
+    return {
+        "law": law.model,
+        "parameters": law.parameters,
+        "fitted": law.fitted,
+        "unseen": law.rmse if law.unseen.size else np.nan,
+        "held_out": law.held_out,
+        "seconds": law.seconds,
+        "reason": law.reason,
+    }
+
+
+def _baseline_row(without: np.ndarray, seen: Dataset) -> dict[str, object]:
+    plain = polynomial(seen.fitted)
+    fitted, held = ([plain.errors(record) for record in records] for records in (seen.fitted, seen.held_out))
+    return {
+        "law": BASELINE,
+        "parameters": plain.coefficients.size,
+        "fitted": _rms(fitted),
+        "unseen": _rms([without]),
+        "held_out": _rms(held) if held else np.nan,
+        "seconds": 0.0,
+        "reason": "",
+    }
+
+
+def _rms(parts: Sequence[np.ndarray]) -> float:
+    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))

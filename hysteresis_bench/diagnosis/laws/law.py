@@ -1,0 +1,104 @@
+"""One law, fitted: a model with known effects and an offset a record, and how it predicts what is left out."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.blocks import Blocks
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.fit.least_squares import point_of
+from hysteresis_bench.signals import Dataset, Record
+
+ITERATIONS = 15
+"""Of a fit without one whole record, from the fit to all of them."""
+
+
+@dataclass(frozen=True, eq=False)
+class Law:
+    """A model as the law of some records.
+
+    unseen : (scored samples of the thinned records,) errors of every fitted record by a fit to the others, or, of a
+    lone record, of blocks left out of it
+    fitted, held_out : RMSE over all samples, unit of the output; NaN where there are none
+    seconds : CPU time;  reason : why there is no fit, "" where there is one
+    """
+
+    model: str
+    reason: str = ""
+    fitted: float = np.nan
+    held_out: float = np.nan
+    unseen: Array = field(default_factory=lambda: np.empty(0))
+    parameters: int = 0
+    seconds: float = 0.0
+
+    @property
+    def rmse(self) -> float:
+        """On excitations left out, unit of the output; infinite where there is no fit."""
+        return float(np.sqrt(np.mean(self.unseen**2))) if self.unseen.size else np.inf
+
+
+@dataclass(frozen=True, eq=False)
+class Laws:
+    """Fits laws to records, each by itself, so that they can be fitted side by side.
+
+    records : thinned, that a law is searched on;  dataset : all samples, and what is held out
+    effects : known to act around every law
+    """
+
+    records: tuple[Record, ...]
+    dataset: Dataset
+    effects: tuple[str, ...] = ()
+    seed: int = 0
+
+    def fitter(self, name: str, records: Sequence[Record]) -> Fitter:
+        """Of one law, with its default settings."""
+        return Fitter(Stack(registry.build("models", name, {}), tuple(records), self.effects), self.seed)
+
+    def law(self, name: str) -> Law:
+        """Fitted, or with the reason why not."""
+        begun = time.process_time()
+        fitter = self.fitter(name, self.records)
+        if reasons := self._reasons(fitter):
+            return Law(name, " ".join(reasons))
+        found = fitter.bare(frozenset({registry.RECORD_OFFSET}))
+        problem = fitter.stack.problem(found.names)
+        count = problem.space.dimension
+        if found.rmse >= 0.999 * _spread(self.records):
+            return Law(name, "it follows these records no better than a constant.", parameters=count)
+        unseen = found.left_out
+        if len(self.records) > 1:
+            sizes = [record.measured.size for record in self.records]
+            number = np.repeat(np.arange(len(sizes)), sizes)
+            folds = Blocks(number, number, len(sizes))
+            unseen = left_out_errors(problem, point_of(problem, found.values), folds, ITERATIONS)
+        full = self.fitter(name, self.dataset.fitted)
+        system, values = full.stack.problem(found.names).system, full.polished(found)
+        fitted, held_out = (
+            accuracy(system, records, values).rmse if records else np.nan
+            for records in (self.dataset.fitted, self.dataset.held_out)
+        )
+        return Law(name, "", fitted, held_out, unseen, count, time.process_time() - begun)
+
+    def _reasons(self, fitter: Fitter) -> list[str]:
+        system = fitter.stack.system(())
+        reasons = [f"{name}: {why}" for name, effect in system.effects if (why := effect.inapplicable(self.records))]
+        samples = sum(record.measured.size for record in self.records)
+        count = len(system.parameters)
+        if samples <= 2 * count:
+            reasons.append(f"{samples} samples are too few for its {count} parameters.")
+        return reasons or broken_promises(system, self.records)
+
+
+def _spread(records: Sequence[Record]) -> float:
+    """RMS of the outputs about each record's own mean."""
+    return float(np.sqrt(np.mean(np.concatenate([(r.measured - np.mean(r.measured)) ** 2 for r in records]))))

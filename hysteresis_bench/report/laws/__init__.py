@@ -1,0 +1,1 @@
+"""Laws beside each other: the figure, the table, the page of a comparison."""

@@ -1,0 +1,71 @@
+"""What a comparison of laws leaves behind: laws.csv, a page; and the same on the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table as Printed
+
+from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison
+from hysteresis_bench.report.laws.tables import laws_figure, laws_table, not_fitted
+from hysteresis_bench.report.shared.blocks import Bullets, Figures
+from hysteresis_bench.report.shared.page import Page, Section, files_beside
+from hysteresis_bench.report.shared.text import listed
+
+FILE, LAWS = "laws.html", "laws.csv"
+FILES = (LAWS, FILE)
+
+
+def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> Path:
+    """Write laws.csv, the figure and the page; returns the page."""
+    folder.mkdir(parents=True, exist_ok=True)
+    write_table(folder / LAWS, found.table)
+    content = found.as_dict()
+    laws = content["laws"]
+    reasons = not_fitted(laws)
+    sections = [
+        Section(
+            "laws",
+            "Every law beside every other",
+            [
+                Figures([laws_figure(folder, laws, floor=found.floor, units=found.units)]),
+                laws_table(laws, content["chosen"], found.floor, found.units),
+            ],
+        ),
+        *([Section("reasons", "Laws that were not fitted", [Bullets(reasons)])] if reasons else []),
+        Section(
+            "notes",
+            "How it was made",
+            [
+                *([Bullets(found.notes)] if found.notes else []),
+                files_beside({LAWS: "a row a law"}),
+            ],
+        ),
+    ]
+    title = f"The law is {found.chosen}" if found.chosen else "No law beats a polynomial"
+    page = Page(title, f"Laws for {listed([file.stem for file in files], 6)}", sections, [found.words])
+    return page.write(folder / FILE)
+
+
+def print_comparison(found: Comparison, console: Console) -> None:
+    """A row a law, the best first, and the choice in words."""
+    unit = found.units.get("output", "1")
+    held_out = bool(found.table["held_out"].notna().any())
+    table = Printed(
+        title=f"RMSE{'' if unit == '1' else f' [{unit}]'}, noise {found.floor:.3g}", title_justify="left", box=None
+    )
+    table.add_column("law")
+    for heading in ("parameters", "left out", "fitted", *(["held out"] if held_out else []), "CPU s"):
+        table.add_column(heading, justify="right")
+    for row in found.table.dropna(subset="unseen").itertuples(index=False):
+        errors = [f"{row.unseen:.4g}", f"{row.fitted:.4g}", *([f"{row.held_out:.4g}"] if held_out else [])]
+        style = "bold" if row.law == found.chosen else "dim" if row.law == BASELINE else ""
+        table.add_row(row.law, str(row.parameters), *errors, f"{row.seconds:.1f}", style=style)
+    console.print(table)
+    for told in not_fitted(found.as_dict()["laws"]):
+        console.print(escape(told), highlight=False, style="dim")
+    console.print(escape(found.words), highlight=False, style="bold" if found.chosen else "bold yellow")

@@ -1,0 +1,81 @@
+"""The figure and the table of laws: what each predicts of what it did not see."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE
+from hysteresis_bench.report.shared.blocks import Cell, Table
+from hysteresis_bench.report.shared.text import NONE, Units, named, number
+from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, legend, picture
+
+UNSEEN, HELD_OUT, WITHOUT, FLOOR = SERIES[0], SERIES[3], MUTED, SERIES[2]
+
+Laws = Sequence[Mapping[str, Any]]
+"""Rows as `Comparison.as_dict` has them: the best first, absent numbers None."""
+
+
+def laws_figure(folder: Path, laws: Laws, *, floor: float, units: Units, name: str = "laws") -> Picture:
+    """RMSE of every law on a logarithmic axis, beside the polynomial without memory and the noise."""
+    shown = [law for law in laws if law["unseen"] is not None]
+
+    def draw(figure: Any) -> None:
+        axes = figure.add_subplot()
+        for row, law in enumerate(shown):
+            without = law["law"] == BASELINE
+            axes.plot(law["unseen"], row, "o", color=WITHOUT if without else UNSEEN, markersize=6, zorder=3)
+            axes.text(1.02, row, number(law["unseen"], 3), transform=axes.get_yaxis_transform(), va="center", color=INK)
+            if law["held_out"] is not None:
+                axes.plot(law["held_out"], row, "D", color=HELD_OUT, markersize=5, zorder=4)
+        axes.axvline(floor, color=FLOOR, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+        axes.plot([], [], "o", color=UNSEEN, label="left out of its fit")
+        if any(law["held_out"] is not None for law in shown):
+            axes.plot([], [], "D", color=HELD_OUT, label="held out")
+        axes.plot([], [], color=FLOOR, linestyle=(0, (4, 3)), label="noise")
+        axes.set_xscale("log")
+        axes.set_yticks(range(len(shown)), [law["law"] for law in shown])
+        axes.invert_yaxis()
+        axes.set_xlabel(named("RMSE", units, "output"))
+        legend(axes)
+
+    told = ", ".join(f"{law['law']} {law['unseen']:.3g}" for law in shown)
+    caption = (
+        "Error of every law on what was left out of its fit, and on what was held out from all of them. The cubic "
+        "polynomial of the input has no memory: a law that does not beat it has found no hysteresis."
+    )
+    size = (6.4, 1.3 + 0.27 * len(shown))
+    return picture(folder, name, size, alt=f"RMSE of every law: {told}.", caption=caption, draw=draw)
+
+
+def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Table:
+    """Every law, the best first."""
+    held_out = any(law["held_out"] is not None for law in laws)
+    rmse = named("RMSE", units, "output")
+    header = ["Law", "Parameters", f"{rmse}, left out", "times the noise", "fitted"]
+    header += ["held out", "CPU seconds"] if held_out else ["CPU seconds"]
+    rows = []
+    for law in (law for law in laws if law["unseen"] is not None):
+        mine = law["law"] == chosen
+        cells: list[str | Cell] = [
+            Cell(law["law"], "quiet" if law["law"] == BASELINE else "", strong=mine),
+            str(law["parameters"]),
+            Cell(number(law["unseen"], 3), "", strong=mine),
+            number(law["unseen"] / floor, 3) if floor > 0.0 else NONE,
+            number(law["fitted"], 3),
+        ]
+        cells += [number(law["held_out"], 3)] if held_out else []
+        rows.append([*cells, number(law["seconds"], 2)])
+    return Table(
+        "Laws",
+        header,
+        rows,
+        note="Left out: every fitted record is predicted by a fit to the others; of a lone record, blocks are left "
+        "out. Each record has an offset of its own. What is held out is predicted and chooses nothing.",
+    )
+
+
+def not_fitted(laws: Laws) -> list[str]:
+    """A sentence for every law that could not be fitted."""
+    return [f"{law['law']}: {law['reason']}" for law in laws if law["reason"]]

@@ -1,0 +1,137 @@
+"""Laws beside each other: the true one is found, a memoryless device is told, what is held out chooses nothing."""
+
+import json
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hysteresis_bench import compare, diagnose, registry
+from hysteresis_bench.cli import main
+from hysteresis_bench.compose import System
+from hysteresis_bench.data.data_files import write_csv
+from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE
+from hysteresis_bench.diagnosis.question import DiagnosisOptions
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.signals import Dataset, Record
+
+TIME = np.linspace(0.0, 2.0, 900)
+ONE = DiagnosisOptions(jobs=1)
+QUICK = ("bouc-wen", "jiles-atherton", "prandtl-ishlinskii", "dahl")
+
+
+def drive(amplitude: float, frequency: float) -> np.ndarray:
+    return amplitude * (np.sin(2 * np.pi * frequency * TIME) + 0.4 * np.sin(5.3 * np.pi * frequency * TIME))
+
+
+def records(response, noise: float = 0.01) -> tuple[Record, ...]:
+    """Three excitations; response(u) -> output."""
+    rng, made = np.random.default_rng(3), []
+    for number, (amplitude, frequency) in enumerate(((1.0, 1.5), (2.0, 1.0), (1.5, 2.5))):
+        u = drive(amplitude, frequency)
+        y = response(u)
+        made.append(Record(TIME, u, y + noise * np.std(y) * rng.standard_normal(y.size), name=f"run {number}"))
+    return tuple(made)
+
+
+def of(name: str, **values: float):
+    system = System(registry.build("models", name))
+
+    def response(u: np.ndarray) -> np.ndarray:
+        p = np.array([[values[q.name]] for q in system.parameters])
+        return system.simulate(Record(TIME, u, None).signal, p)[:, 0]
+
+    return response
+
+
+BOUC_WEN = of("bouc-wen", alpha=0.5, beta=1.2, gamma=0.2, d=1.5)
+
+
+def test_the_true_law_is_found_and_reaches_the_noise():
+    found = compare(Dataset(records(BOUC_WEN)), QUICK, options=ONE)
+    assert found.chosen == "bouc-wen"
+    best = found.table.iloc[0]
+    assert best["law"] == "bouc-wen"
+    assert best["unseen"] < 1.15 * found.floor
+    assert found.table.set_index("law").loc[BASELINE, "unseen"] > 10.0 * best["unseen"]
+
+
+def test_without_memory_no_law_beats_the_polynomial():
+    found = compare(Dataset(records(lambda u: 1.0 + u + 0.2 * u**3)), ("dahl", "jiles-atherton"), options=ONE)
+    assert found.chosen == ""
+    assert "without memory" in found.words
+
+
+def test_what_is_held_out_chooses_nothing():
+    three = records(BOUC_WEN)
+    strange = replace(three[2], output=three[2].measured[::-1].copy())
+    one, other = (
+        compare(Dataset((*three[:2], last), (last.name,)), QUICK, options=ONE) for last in (three[2], strange)
+    )
+    columns = ["law", "parameters", "fitted", "unseen"]
+    assert one.chosen == other.chosen
+    assert one.table[columns].equals(other.table[columns])
+    assert not one.table["held_out"].equals(other.table["held_out"])
+
+
+def test_the_polynomial_is_least_squares_with_a_constant_a_record():
+    u, shifted = drive(1.0, 1.0), drive(2.0, 1.5)
+    pair = (Record(TIME, u, 3.0 + 2.0 * u - u**3), Record(TIME, shifted, -5.0 + 2.0 * shifted - shifted**3))
+    assert max(np.abs(polynomial(pair).errors(record)).max() for record in pair) < 1e-9
+    assert np.abs(baseline_errors(pair)).max() < 1e-6
+
+
+def test_of_a_lone_record_the_simplest_near_law_is_taken_and_it_is_said():
+    found = compare(Dataset(records(BOUC_WEN)[:1]), ("bouc-wen", "bouc-wen-generalized"), options=ONE)
+    assert found.chosen == "bouc-wen"
+
+
+def test_a_diagnosis_without_a_model_finds_law_and_effect():
+    """The output drifts beside a Bouc-Wen loop."""
+    asked = replace(ONE, laws=("bouc-wen", "dahl"))
+    found = diagnose(Dataset(records(lambda u: BOUC_WEN(u) + 0.8 * TIME)), options=asked)
+    assert (found.model_name, found.effects) == ("bouc-wen", ("drift",))
+    assert found.laws is not None
+    assert found.unseen < 0.5 * found.laws.table["unseen"].min()
+    assert found.unseen < 1.15 * found.floor
+    assert found.laws.words in found.warnings[0]
+
+
+def test_faults_are_told_together():
+    with pytest.raises(UserError) as told:
+        compare(Dataset(records(BOUC_WEN)), ("bouc-when", "dahl", "dahl"), ("dragging",), options=ONE)
+    for said in ("bouc-when", "named twice", "dragging"):
+        assert said in str(told.value)
+    with pytest.raises(UserError, match="name it"):
+        diagnose(Dataset(records(BOUC_WEN)), bounds={"alpha": (0.0, 1.0)}, options=ONE)
+
+
+def test_the_command_writes_table_and_page(tmp_path):
+    paths = []
+    for record in records(BOUC_WEN):
+        paths.append(tmp_path / f"{record.name.replace(' ', '')}.csv")
+        write_csv(paths[-1], Dataset((record,)))
+    out = tmp_path / "laws"
+    said = CliRunner().invoke(
+        main,
+        [
+            "compare",
+            *map(str, paths),
+            "--models",
+            "bouc-wen,dahl",
+            "--held-out",
+            "run2",
+            "--jobs",
+            "1",
+            "--out",
+            str(out),
+        ],
+    )
+    assert said.exit_code == 0, said.output
+    assert "bouc-wen predicts best" in " ".join(said.output.split())
+    assert (out / "laws.csv").is_file()
+    page = (out / "laws.html").read_text()
+    assert "The law is bouc-wen" in page
+    assert json.dumps("held out")[1:-1] in page
