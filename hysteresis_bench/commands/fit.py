@@ -10,7 +10,14 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.data.parameters import bounds_option, fix_option, pairs, values
+from hysteresis_bench.commands.data.parameters import (
+    bounds_option,
+    fix_option,
+    pairs,
+    setting_option,
+    settings_of,
+    values,
+)
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
@@ -25,6 +32,7 @@ if TYPE_CHECKING:
 @data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
+@setting_option
 @bounds_option
 @fix_option
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
@@ -48,6 +56,7 @@ def fit(
     layout: Layout,
     model: str,
     effects: Sequence[str],
+    settings: Sequence[str],
     bounds: Sequence[str],
     fixed: Sequence[str],
     held_out: Sequence[str],
@@ -86,10 +95,11 @@ def fit(
         skip=skip,
         settle=settle,
     )
+    asked = {"settings": settings_of(settings), "bounds": pairs(bounds), "fixed": values(fixed)}
     kept = f"nothing was written to {folder}"
     with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
         options = replace(options, on_step=on_step)
-        fitted = fit_model(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
+        fitted = fit_model(dataset, model, effects, **asked, options=options)
     page = write_fit(folder, fitted, data)
     if as_json:
         tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}

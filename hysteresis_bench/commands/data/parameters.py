@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import click
 
@@ -12,6 +12,9 @@ from hysteresis_bench.errors import UserError
 Value = TypeVar("Value")
 
 bounds_option = click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter.")
+setting_option = click.option(
+    "--set", "settings", multiple=True, metavar="NAME=VALUE", help="A setting of the model, such as plays=20."
+)
 fix_option = click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known.")
 
 
@@ -28,6 +31,20 @@ def pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
 def values(texts: Sequence[str]) -> dict[str, float]:
     """P=VALUE ..."""
     return _by_name(texts, float, "--fix", "PARAMETER=VALUE, such as n=1")
+
+
+def settings_of(texts: Sequence[str]) -> dict[str, Any]:
+    """NAME=VALUE ..., values as in a study file: a number, true or false, or a word."""
+    return _by_name(texts, _setting, "--set", "NAME=VALUE, such as plays=20")
+
+
+def _setting(text: str) -> Any:
+    import tomllib
+
+    try:
+        return tomllib.loads(f"value = {text}")["value"]
+    except tomllib.TOMLDecodeError:
+        return text
 
 
 def _by_name(texts: Sequence[str], read: Callable[[str], Value], option: str, form: str) -> dict[str, Value]:
