@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.fit.fitting import Fit
     from hysteresis_bench.fit.fitting import FitOptions as FitOptions
     from hysteresis_bench.fit.model_file import FittedModel
+    from hysteresis_bench.progress import OnStep
     from hysteresis_bench.signals import Dataset
     from hysteresis_bench.study.results import Results
     from hysteresis_bench.study.run import Progress
@@ -183,18 +184,21 @@ def control(
     rate: float | None = None,
     amplitude: float | None = None,
     seed: int = 0,
+    on_step: OnStep | None = None,
 ) -> ControlComparison:
     """Every controller that a fitted model allows, along six references, on a virtual rig.
 
     model : a fitted model, or the path of its model.json;  rig : by name
     rate : samples a second, default 10000;  amplitude : of the references, in the output's unit, default 2
     seed : with the names of rig and reference, what the sensor's noise depends on
+    on_step : called with where the comparison is
     Raises UserError where the rig cannot be run sample by sample, the model has no inverse, or its linear section is
     unstable or too fast for the rate.
     """
     from hysteresis_bench.control.comparison import compare, stepped_rig
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import FittedModel, read_model
+    from hysteresis_bench.progress import quiet
 
     fitted = model if isinstance(model, FittedModel) else read_model(Path(model))
     given = {name: value for name, value in (("rate", rate), ("amplitude", amplitude)) if value is not None}
@@ -203,7 +207,7 @@ def control(
     except ValueError as error:
         raise UserError("control", str(error)) from None
     try:
-        return compare(fitted, built, rig, seed=seed, **given)
+        return compare(fitted, built, rig, seed=seed, on_step=on_step or quiet, **given)
     except ValueError as error:
         raise UserError("control" if fitted is model else str(model), str(error)) from None
 

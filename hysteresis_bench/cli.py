@@ -11,6 +11,8 @@ from hysteresis_bench.commands.compare import compare
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.commands.data.check import check
 from hysteresis_bench.commands.data.export import export
+from hysteresis_bench.commands.data.new_study import new_study
+from hysteresis_bench.commands.data.schema import schema
 from hysteresis_bench.commands.diagnose import diagnose
 from hysteresis_bench.commands.fit import fit
 from hysteresis_bench.commands.measure import measure
@@ -67,9 +69,11 @@ COMMANDS = (
     measure,
     merge,
     new_plugin,
+    new_study,
     predict,
     report,
     run,
+    schema,
 )
 for command in COMMANDS:
     main.add_command(command)

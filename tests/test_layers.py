@@ -11,6 +11,7 @@ FLOORS = [
     ["cli", "__main__", "__init__"],
     ["commands"],
     ["testing"],
+    ["schemas"],
     ["report"],
     ["study_diagnosis"],
     ["diagnosis_study"],
@@ -25,7 +26,7 @@ FLOORS = [
     ["contracts", "data"],
     ["signals", "parameters"],
     ["errors", "kernels"],
-    ["arrays"],
+    ["arrays", "progress"],
 ]
 """From the roof down. Names on one floor may know each other."""
 

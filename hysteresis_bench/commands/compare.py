@@ -10,7 +10,8 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
-from hysteresis_bench.commands.terminal.console import plain_console, say_notes
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
 
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 @click.option("--settle", is_flag=True, help="Repeat closed loops before scoring.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@open_option
 @force_option
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-laws.")
 def compare(
@@ -42,12 +44,14 @@ def compare(
     settle: bool,
     jobs: int | None,
     seed: int,
+    open_page: bool,
     force: bool,
     out: Path | None,
 ) -> None:
     """Fit every law to DATA ... and rank them by what they did not see, beside a polynomial without memory."""
     from hysteresis_bench import compare as compare_laws
     from hysteresis_bench import load
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.laws.page import FILE, FILES, print_comparison, write_comparison
 
@@ -56,9 +60,11 @@ def compare(
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
     say_understood(console, dataset)
     say_notes(console, dataset.notes)
-    options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle)
     names = () if models == "all" else tuple(name.strip() for name in models.split(","))
-    found = compare_laws(dataset, names, effects, options=options)
+    kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
+    with told_when_stopped("compare", lambda: kept, anew), steps_told("compare") as on_step:
+        options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, on_step=on_step)
+        found = compare_laws(dataset, names, effects, options=options)
     print_comparison(found, console)
     page = write_comparison(folder, found, data)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+    say_page(console, page, open_page)

@@ -7,8 +7,10 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hysteresis_bench.commands.outputs import check_folder, force_option
-from hysteresis_bench.commands.terminal.console import say_notes, say_path
+from hysteresis_bench.commands.outputs import check_file, check_folder, force_option
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
+from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.fit.model_file import FittedModel
 
 existing_file = click.Path(path_type=Path)
-FEED_FORWARD = "feed-forward.csv"
+FEED_FORWARD, TRACKING = "feed-forward.csv", "tracking.svg"
 FILES = ("control.html", "control.csv", "responses.csv")
 
 
@@ -28,7 +30,10 @@ FILES = ("control.html", "control.csv", "responses.csv")
 @click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help="Of the references; default: 2.")
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
+@click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw what --reference makes.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@json_option
+@open_option
 @force_option
 def control(
     model: Path,
@@ -38,17 +43,29 @@ def control(
     amplitude: float | None,
     voltage_limit: float | None,
     out: Path | None,
+    plot: Path | None,
     seed: int,
+    as_json: bool,
+    open_page: bool,
     force: bool,
 ) -> None:
     """Use a fitted MODEL.json: the input that follows a trajectory (--reference), controllers on a rig (--rig)."""
     from rich.console import Console
 
     from hysteresis_bench import control as control_on_rig
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.report.control.page import print_control, write_control
+    from hysteresis_bench.report.shared.papers import check_figure
 
+    if plot is not None:
+        if reference is None:
+            raise UserError("control", "--plot draws what --reference makes; give it, too.")
+        check_file(plot, [model, reference], force)
+        check_figure(plot)
+    if as_json and (rig is None or reference is not None):
+        raise UserError("control", "--json tells the comparison on a --rig, and that alone.")
     if rig is None and reference is None:
         raise UserError("control", "give --rig NAME to compare controllers, or --reference CSV for a feed-forward.")
     fitted, console = read_model(model), Console(soft_wrap=False)
@@ -57,13 +74,24 @@ def control(
     if reference is not None:
         try:
             _write_feed_forward(fitted, reference, voltage_limit, folder, console)
+            _draw_tracking(fitted, folder, plot or folder / TRACKING)
+            say_path(console, "figure", plot or folder / TRACKING)
         except ValueError as error:
             raise UserError(str(model), str(error)) from None
     if rig is not None:
-        comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed)
+        kept = f"no comparison was written to {folder}"
+        with (
+            told_when_stopped("control", lambda: kept, "Run it again to begin anew."),
+            steps_told("control") as on_step,
+        ):
+            comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed, on_step=on_step)
         page = write_control(folder, comparison, f"{fitted.model} ({model.stem})")
+        if as_json:
+            scores = comparison.scores.to_dict("records")
+            say_json({"scores": scores, "tuning": comparison.tuning, "warnings": comparison.warnings, "page": page})
+            return
         print_control(comparison, console)
-        say_path(console, "page", page)
+        say_page(console, page, open_page)
 
 
 def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, folder: Path, console: Console) -> None:
@@ -94,3 +122,16 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     if forward.ignored:
         say_notes(console, [f"not inverted: {', '.join(forward.ignored)}."])
     say_path(console, "feed-forward", folder / FEED_FORWARD)
+
+
+def _draw_tracking(fitted: FittedModel, folder: Path, path: Path) -> None:
+    """Wanted output, the model's answer to the input that was written, and what is left."""
+    from hysteresis_bench.data.data_files import read_data
+    from hysteresis_bench.report.shared.papers import draw_tracking
+
+    wanted = read_data([folder / FEED_FORWARD], output_needed=False, units=fitted.units)
+    (record,), (answer,) = wanted.records, fitted.predict(wanted).records
+    assert record.output is not None
+    assert answer.output is not None
+    columns = {"time": record.time, "input": record.input, "wanted": record.output, "reached": answer.output}
+    draw_tracking(path, columns, fitted.units)

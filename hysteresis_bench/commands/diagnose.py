@@ -11,7 +11,9 @@ import click
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.data.parameters import bounds_option, fix_option, pairs, values
 from hysteresis_bench.commands.outputs import check_folder, force_option
-from hysteresis_bench.commands.terminal.console import say_notes
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option
+from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -40,6 +42,8 @@ SHOWN = 8
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@json_option
+@open_option
 @force_option
 def diagnose(
     data: Sequence[Path],
@@ -58,6 +62,8 @@ def diagnose(
     jobs: int | None,
     out: Path | None,
     seed: int,
+    as_json: bool,
+    open_page: bool,
     force: bool,
 ) -> None:
     """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
@@ -65,6 +71,7 @@ def diagnose(
 
     from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.diagnosis.page import FILE, write_diagnosis_page
@@ -72,16 +79,22 @@ def diagnose(
     folder = out or Path(f"{data[0].stem}-diagnosis")
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
-    say_understood(console, dataset)
-    say_notes(console, dataset.notes)
+    if not as_json:
+        say_understood(console, dataset)
+        say_notes(console, dataset.notes)
     laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
-    options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws)
-    found = find(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
-    print_diagnosis(found, console)
+    kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
+    with told_when_stopped("diagnose", lambda: kept, anew), steps_told("diagnose") as on_step:
+        options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws, on_step)
+        found = find(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
     path = write_diagnosis(folder, found, data)
-    console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
     page = write_diagnosis_page(path.parent)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+    if as_json:
+        click.echo(path.read_text(encoding="utf-8"), nl=False)
+        return
+    print_diagnosis(found, console)
+    console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
+    say_page(console, page, open_page)
 
 
 def print_diagnosis(found: Diagnosis, console: Console) -> None:

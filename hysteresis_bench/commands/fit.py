@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,9 @@ import click
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.data.parameters import bounds_option, fix_option, pairs, values
 from hysteresis_bench.commands.outputs import check_folder, force_option
-from hysteresis_bench.commands.terminal.console import plain_console, say_notes
+from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
 
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
@@ -32,6 +35,8 @@ if TYPE_CHECKING:
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@json_option
+@open_option
 @force_option
 @click.option(
     "--out",
@@ -53,20 +58,24 @@ def fit(
     seed: int,
     optimizer: str | None,
     budget: int | None,
+    as_json: bool,
+    open_page: bool,
     force: bool,
     out: Path | None,
 ) -> None:
     """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page."""
     from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
     from hysteresis_bench.report.fit.page import FILE
 
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
-    say_understood(console, dataset)
-    say_notes(console, dataset.notes)
+    if not as_json:
+        say_understood(console, dataset)
+        say_notes(console, dataset.notes)
     default = FitOptions()
     options = FitOptions(
         optimizer=optimizer or default.optimizer,
@@ -77,7 +86,15 @@ def fit(
         skip=skip,
         settle=settle,
     )
-    fitted = fit_model(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
-    print_fit(fitted, console)
+    kept = f"nothing was written to {folder}"
+    with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
+        options = replace(options, on_step=on_step)
+        fitted = fit_model(dataset, model, effects, bounds=pairs(bounds), fixed=values(fixed), options=options)
     page = write_fit(folder, fitted, data)
-    console.print(f"page: {page}", highlight=False, soft_wrap=True)
+    if as_json:
+        tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}
+        said = {"agreement": fitted.agreement, "warnings": fitted.warnings, "notes": fitted.notes}
+        say_json({"model": fitted.model.model, **tables, **said, "page": page})
+        return
+    print_fit(fitted, console)
+    say_page(console, page, open_page)

@@ -10,6 +10,7 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
 if TYPE_CHECKING:
@@ -22,8 +23,17 @@ if TYPE_CHECKING:
 @data_options
 @click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw it: .pdf, .svg or .png.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
+@json_option
 @force_option
-def predict(model: Path, data: Sequence[Path], layout: Layout, plot: Path | None, out: Path, force: bool) -> None:
+def predict(
+    model: Path,
+    data: Sequence[Path],
+    layout: Layout,
+    plot: Path | None,
+    out: Path,
+    as_json: bool,
+    force: bool,
+) -> None:
     """Predict the output of DATA ... with a fitted MODEL.json, prepared as for its fit."""
     check_file(out, (model, *data), force)
     from hysteresis_bench.data.data_files import read_data, write_csv
@@ -38,13 +48,19 @@ def predict(model: Path, data: Sequence[Path], layout: Layout, plot: Path | None
     measured = read_data(data, output_needed=False, units=fitted.units, layout=layout)
     predicted = fitted.predict(measured)
     write_csv(out, predicted)
+    errors = fitted.errors(measured)
+    if plot is not None:
+        draw_prediction(plot, fitted.in_own_units(measured), predicted)
+    if as_json:
+        found = {record: error.as_dict() for record, error in errors.items()}
+        say_json({"records": found, "notes": predicted.notes, "prediction": out})
+        return
     say_understood(console, measured)
     say_notes(console, predicted.notes)
     unit = "" if fitted.units["output"] == "1" else f" {fitted.units['output']}"
-    for record, error in fitted.errors(measured).items():
+    for record, error in errors.items():
         told = f"relative RMS {error.relative_rms:.2%}, largest error {error.max_error:.2%}"
         console.print(f"{record}: RMSE {error.rmse:.4g}{unit}, {told}", highlight=False, markup=False)
     say_path(console, "prediction", out)
     if plot is not None:
-        draw_prediction(plot, fitted.in_own_units(measured), predicted)
         say_path(console, "figure", plot)

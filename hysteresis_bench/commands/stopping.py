@@ -10,9 +10,11 @@ from pathlib import Path
 from types import FrameType
 from typing import NoReturn
 
+AGAIN = "Run it again to continue."
+
 
 @contextmanager
-def told_when_stopped(study: Path, kept: Callable[[], str]) -> Iterator[None]:
+def told_when_stopped(what: Path | str, kept: Callable[[], str], again: str = AGAIN) -> Iterator[None]:
     """Ends with a sentence and the exit code that a shell gives: 130, 143. kept : what is not lost, as a clause"""
 
     def stop(number: int, frame: FrameType | None) -> NoReturn:
@@ -23,7 +25,7 @@ def told_when_stopped(study: Path, kept: Callable[[], str]) -> Iterator[None]:
         yield
     except KeyboardInterrupt as stopped:
         by = signal.Signals(stopped.args[0]) if stopped.args else signal.SIGINT
-        told = f"{study}: stopped by {by.name}; {kept()}. Run it again to continue."
+        told = f"{what}: stopped by {by.name}; {kept()}. {again}"
         from rich.console import Console
 
         Console(stderr=True, soft_wrap=True).print(told, highlight=False, markup=False)

@@ -22,6 +22,7 @@ from hysteresis_bench.control.suitability import check_units, range_words
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.seeds import generator
 from hysteresis_bench.kernels.resources import economical
+from hysteresis_bench.progress import OnStep, Step, quiet
 
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours
@@ -85,6 +86,7 @@ def compare(
     rate: float = RATE,
     amplitude: float = AMPLITUDE,
     seed: int = 0,
+    on_step: OnStep = quiet,
 ) -> Comparison:
     """Run every controller that the model allows along every reference, on the rig.
 
@@ -97,11 +99,15 @@ def compare(
     forward = feed_forward(fitted)
     check_units(fitted, forward, rig, name)
     told = range_words(fitted, forward, rig.input_limit, amplitude)
+    on_step(Step("tuning"))
     controllers, tuning = _controllers(forward, 1.0 / rate, _model_error(fitted, amplitude))
     plant, floor = rig.plant(rate), rig.noise_floor
-    scores, responses = [], []
-    for reference in published_references(amplitude, rate):
+    scores: list[dict[str, Any]] = []
+    responses = []
+    references = published_references(amplitude, rate)
+    for reference in references:
         for label, controller in controllers.items():
+            on_step(Step("references by controllers", len(scores), len(references) * len(controllers)))
             rng = generator(seed, name, reference.name)
             run = track(
                 plant,

@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.kernels.resources import economical
+from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 
 PURSUED = 2
@@ -40,9 +41,13 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
 
 
 def _diagnosed(dataset: Dataset, question: Question) -> Diagnosis:
+    on_step, law = question.options.on_step, question.model
+    on_step(Step(f"{law}: the records"))
     prepared = prepare(dataset, question)
+    on_step(Step(f"{law}: noise and memory"))
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
+    on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
     return conclude(dataset, question, prepared, found, stages)
 

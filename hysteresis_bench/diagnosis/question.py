@@ -14,6 +14,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.checks.asked import asked_faults, parameter_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.progress import OnStep, quiet
 from hysteresis_bench.signals import Dataset
 
 FEWEST_SAMPLES = 40
@@ -30,6 +31,7 @@ class DiagnosisOptions:
     settle : closed loops are repeated until they close before they are scored
     laws : models among which the law is sought where none is named, all registered ones where empty
     accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
+    on_step : called with where the diagnosis is
     """
 
     seed: int = 0
@@ -40,6 +42,7 @@ class DiagnosisOptions:
     settle: bool = False
     accept_terms: bool = False
     laws: Sequence[str] = ()
+    on_step: OnStep = field(default=quiet, compare=False, repr=False)
 
 
 @dataclass(frozen=True)

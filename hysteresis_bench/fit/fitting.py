@@ -15,6 +15,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
+from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
@@ -28,11 +29,8 @@ from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
+from hysteresis_bench.progress import OnStep, Step, quiet
 from hysteresis_bench.signals import Dataset, Record
-
-AGREE = 0.01
-"""Two searches agree when neither's RMSE is more than 1 % above the other's, and their simulated outputs
-differ by less than 1 % of the measured range (RMS)."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +42,7 @@ class FitOptions:
     input_offset, flip : the model sees (input - input_offset), times -1 with flip
     skip : seconds at the start of every record that are simulated and not scored
     settle : closed loops are repeated until they close before they are scored
+    on_step : called with where the fit is
     """
 
     optimizer: str = registry.SEARCH
@@ -54,6 +53,7 @@ class FitOptions:
     flip: bool = False
     skip: float = 0.0
     settle: bool = False
+    on_step: OnStep = field(default=quiet, compare=False, repr=False)
 
 
 DEFAULT = FitOptions()
@@ -136,6 +136,7 @@ def fit_records(
     space = _space(system, seen.fitted, bounds or {})
     best = _searched(system, space, seen, options)
     problem, values = best.problem, best.values
+    options.on_step(Step("what the data determine"))
     try:
         analysis = analyse(problem, values)
     except ValueError as error:
@@ -150,7 +151,7 @@ def fit_records(
         preparation=replace(preparation, settle=best.repeats),
     )
     parameters = _parameter_table(problem, fitted)
-    agrees, agreement = _agreement(problem, best.found, best.losses)
+    agrees, agreement = agreement_of(problem, best.found, best.losses)
     responses = simulated(system, best.dataset.records, values)
     return Fit(
         fitted,
@@ -231,8 +232,16 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         for run in (0, 1):
             key = (options.seed, "fit", run)
             start = shared_start(space.dimension, *key)
-            best = search(problem, optimizer, budget=options.budget, start=start, rng=generator(*key))
+            said = f"search {run + 1} of 2{f', {repeats} passes of every loop' if options.settle else ''}"
+
+            def counted(evaluations: int, what: str = said) -> None:
+                options.on_step(Step(what, evaluations, options.budget))
+
+            counted(0)
+            rng = generator(*key)
+            best = search(problem, optimizer, budget=options.budget, start=start, rng=rng, on_evaluated=counted)
             found.append(best.values)
+        options.on_step(Step("to the nearest optimum"))
         polished = polish(problem, np.column_stack(found))
         losses = problem.losses(space.to_unit(polished))
         searched = _Searched(problem, ready, tuple(polished.T), tuple(losses.tolist()), repeats, 0.0)
@@ -242,25 +251,6 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         if gap < CLOSED or repeats >= MOST_REPEATS:
             return replace(searched, gap=gap)
         repeats *= 2
-
-
-def _agreement(problem: Problem, found: Sequence[Array], losses: Sequence[float]) -> tuple[bool, str]:
-    difference = np.diff(problem.residuals(problem.space.to_unit(np.column_stack(found))))
-    spread = max(float(np.ptp(record.measured)) for record in problem.records) or 1.0
-    apart = float(np.sqrt(np.mean(difference**2))) / spread
-    ratio = max(losses) / (min(losses) or 1e-300)
-    if ratio > 1 + AGREE and max(losses) > 1e-9 * problem.scale:
-        return False, (
-            f"Two searches from other starts do NOT agree: their RMSE differ by {100 * (ratio - 1):.3g} %. "
-            f"The better one is shown; a larger budget or narrower bounds may find a better one still."
-        )
-    if apart > AGREE:
-        return False, (
-            f"Two searches from other starts fit equally well but do NOT agree: their outputs differ by "
-            f"{100 * apart:.2g} % of the range (RMS)."
-        )
-    close = f"their outputs differ by {100 * apart:.2g} % of the range (RMS)" if apart > 1e-6 else "they found the same"
-    return True, f"Two searches from other starts agree: {close}."
 
 
 def _edges(parameters: pd.DataFrame) -> list[str]:

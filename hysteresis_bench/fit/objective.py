@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
 
@@ -23,6 +25,10 @@ BLOCK_BYTES = 64 << 20
 """Simulated output of a block of a swarm at most, but for the longest records."""
 LEAST_BLOCK, MOST_BLOCK = 16, 64
 """Columns below which a kernel no longer fills its vector lanes, and those that it integrates side by side."""
+
+
+OnEvaluated: TypeAlias = Callable[[int], None]
+"""Called with the count of evaluations so far."""
 
 
 class BudgetSpent(BaseException):
@@ -134,8 +140,9 @@ class Trace:
 class Objective:
     """A problem on a meter; contracts.Objective says what an optimizer may rely on, `shown` what it gets."""
 
-    def __init__(self, problem: Problem, budget: int) -> None:
+    def __init__(self, problem: Problem, budget: int, on_evaluated: OnEvaluated | None = None) -> None:
         self._problem = problem
+        self._on_evaluated = on_evaluated
         self.budget = budget
         self.dimension = problem.space.dimension
         self.linear = problem.linear
@@ -205,6 +212,8 @@ class Objective:
             )
         self.best = float(running[-1])
         self.evaluations += losses.size
+        if self._on_evaluated:
+            self._on_evaluated(self.evaluations)
 
     def shown(self) -> contracts.Objective:
         """What an optimizer gets: it can ask and read, and no attribute of it leads to the meter or the problem."""

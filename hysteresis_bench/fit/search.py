@@ -9,7 +9,7 @@ from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Optimizer, Start
-from hysteresis_bench.fit.objective import BudgetSpent, Objective, Problem, Trace
+from hysteresis_bench.fit.objective import BudgetSpent, Objective, OnEvaluated, Problem, Trace
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,12 +26,21 @@ class Search:
     trace: Trace
 
 
-def search(problem: Problem, optimizer: Optimizer, *, budget: int, start: Start, rng: Generator) -> Search:
+def search(
+    problem: Problem,
+    optimizer: Optimizer,
+    *,
+    budget: int,
+    start: Start,
+    rng: Generator,
+    on_evaluated: OnEvaluated | None = None,
+) -> Search:
     """Run one optimizer on one problem. Whatever the optimizer raises passes through.
 
+    on_evaluated : called with the count of evaluations so far
     Raises RuntimeError where the optimizer returned without a single evaluation.
     """
-    objective = Objective(problem, budget)
+    objective = Objective(problem, budget, on_evaluated)
     with contextlib.suppress(BudgetSpent):
         optimizer.search(objective.shown(), start, rng)
     if objective.best_point is None:

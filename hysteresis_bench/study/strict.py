@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError
+from pydantic import BaseModel, BeforeValidator, ConfigDict, ValidationError, WithJsonSchema
 
 from hysteresis_bench.errors import UserError, nearest, printable
 
@@ -36,7 +36,7 @@ def duration(text: Any) -> float:
     return float(match[1]) * SECONDS[match[2] or "s"]
 
 
-Seconds = Annotated[float, BeforeValidator(duration)]
+Seconds = Annotated[float, BeforeValidator(duration), WithJsonSchema({"type": ["number", "string"]})]
 """A time in a TOML file, such as "10 min"."""
 
 

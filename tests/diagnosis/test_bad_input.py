@@ -153,12 +153,12 @@ def test_bounds_and_values_of_parameters_that_are_not_there_are_told():
     """Also beside those of effects that the search may add, which are known."""
     time = np.linspace(0.0, 1.0, 200)
     record = Record(time, np.sin(19.0 * time), np.cos(19.0 * time))
+    asked = Question(
+        "bouc-wen",
+        bounds={"alpah": (0.0, 1.0), "input-lag.time_constant": (0.2, 0.1)},
+        fixed={"creep.shares": 0.1, "beta": np.nan},
+    )
     with pytest.raises(UserError) as told:
-        asked = Question(
-            "bouc-wen",
-            bounds={"alpah": (0.0, 1.0), "input-lag.time_constant": (0.2, 0.1)},
-            fixed={"creep.shares": 0.1, "beta": np.nan},
-        )
         diagnose(Dataset((record,)), asked)
     for said in ('no parameter "alpah"', "is above high", 'no parameter "creep.shares"', "must be finite"):
         assert said in str(told.value)

@@ -60,6 +60,14 @@ def fill(folder: Path) -> None:
     for names, model in ((("slow", "fast", "nested", "mixed"), "bouc-wen"), (("mine", "other"), "jiles-atherton")):
         for name, experiment in zip(names, ("slow", "fast", "nested", "mixed"), strict=False):
             write_csv(folder / f"{name}.csv", measure("hidden-effects", experiment, settings={"model": model}))
+    experiments = ("slow", "fast", "mixed")
+    logged = measure("hidden-effects", *experiments, settings={"model": "bouc-wen", "effects": ["creep"]})
+    lines = [
+        ";".join([*(f"{value:.6f}".replace(".", ",") for value in row), record.name])
+        for record in logged.records
+        for row in zip(record.time, record.input, record.output, strict=True)
+    ]
+    (folder / "scope.csv").write_text("\n".join(["Zeit (s);Spannung (V);Weg (um);run", *lines]), encoding="utf-8")
     phase = 2 * np.pi * np.arange(200) / 200
     loops = [
         pd.DataFrame(

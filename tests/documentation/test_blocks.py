@@ -43,7 +43,7 @@ def test_commands_run(block, folder):
     for command in said:
         if command.startswith("make "):
             run(f"make --dry-run {command.removeprefix('make ')}", ROOT)
-        else:
+        elif not command.startswith("pip install "):  # test_session installs
             assert command.startswith("hysteresis-bench "), command
             run(command, folder)
 

@@ -67,6 +67,7 @@ def test_the_readme_says_what_the_kept_diagnoses_say():
     said = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split())
     assert f"{kept.known_cases()} cases made by the three models" in said
     assert f"else, in {kept.named(True)}; something claimed on clean data in {kept.claimed_on_clean(True)};" in said
+    assert f"in {kept.named(False)} cases, and something was claimed in {kept.claimed_on_clean(False)} with" in said
     assert f"{kept.PREDICTED} times the noise in {kept.predicted()}." in said
 
 

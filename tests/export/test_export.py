@@ -6,7 +6,7 @@ import shutil
 import subprocess
 import sys
 import time
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -14,6 +14,7 @@ from click.testing import CliRunner
 
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
+from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.export.write import exported
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
@@ -54,10 +55,20 @@ SETTINGS = {"record-offset": {"default": 0.25}}
 def fitted(law="bouc-wen", effects=(), preparation=None, settings=None, unit="s", **change):
     values = {**LAWS[law], **change}
     values |= {f"{name}.{key}": value for name in effects for key, value in EFFECTS[name].items()}
-    estimates = {name: Estimate(value, None, "1") for name, value in values.items()}
-    own = {name: SETTINGS.get(name, {}) for name in effects}
     units = {"time": unit, "input": "V", "output": "um"}
-    model = FittedModel(law, settings or {}, tuple(effects), own, units, estimates)
+    known = registry.build("models", law, settings)
+    own = {name: SETTINGS.get(name) or asdict(registry.build_effects(known, (name,))[0][1]) for name in effects}
+    known = System(known, registry.build_effects(known, effects, own)).parameters
+    spelled = {parameter.name: parameter.unit_in(units) for parameter in known}
+    estimates = {name: Estimate(value, None, spelled[name]) for name, value in values.items()}
+    model = FittedModel(
+        law,
+        {"n": 1.0, **(settings or {})} if law == "bouc-wen" else settings or {},
+        tuple(effects),
+        own,
+        units,
+        estimates,
+    )
     return replace(model, preparation=preparation) if preparation else model
 
 

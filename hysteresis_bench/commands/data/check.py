@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +10,7 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @data_options
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write the records as a plain CSV.")
 @click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw them: .pdf, .svg or .png.")
-@click.option("--json", "as_json", is_flag=True, help="Print JSON in place of tables.")
+@json_option
 @force_option
 def check(
     data: Sequence[Path], layout: Layout, out: Path | None, plot: Path | None, as_json: bool, force: bool
@@ -44,7 +44,7 @@ def check(
         warnings = (f"{lacking[0]}: no column of the output was found; --output NAME says which it is.", *warnings)
     if as_json:
         content = {"records": [dict(row) for row in dataset.understood], "notes": dataset.notes, "warnings": warnings}
-        click.echo(json.dumps(content, indent=1, ensure_ascii=False))
+        say_json(content)
     else:
         console = plain_console()
         say_understood(console, dataset)

@@ -77,3 +77,18 @@ def _table(*columns: str) -> Table:
     for column in columns:
         table.add_column(column)
     return table
+
+
+def told_of(kind: registry.Kind, name: str) -> dict[str, Any]:
+    """What `describe` prints, for programs: docstring, parameters with their boxes, source."""
+    offered = name not in registry.names(kind)
+    plugin = None if offered else registry.load(kind, name)
+    loaded = registry.effect(name) if offered else plugin and plugin.loaded
+    parameters = [dataclasses.asdict(one) for one in getattr(loaded, "parameters", ())]
+    return {
+        "kind": kind[:-1],
+        "name": name,
+        "says": inspect.getdoc(loaded) or "",
+        "parameters": parameters,
+        "source": f"{plugin.distribution} {plugin.version}" if plugin else f"offered by {registry.offered()[name]}",
+    }

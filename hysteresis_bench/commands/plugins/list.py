@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
 
@@ -21,11 +22,12 @@ KINDS: tuple[registry.Kind, ...] = ("models", "effects", "optimizers", "rigs")
 
 @click.command("list")
 @click.argument("what", required=False)
-def list_plugins(what: str | None) -> None:
+@json_option
+def list_plugins(what: str | None, as_json: bool) -> None:
     """List models, effects, optimizers, rigs or studies; all of them without an argument. With the name of a plugin
     tell what it is: parameters, settings, and where it comes from."""
     from hysteresis_bench import registry
-    from hysteresis_bench.commands.plugins.describe import describe, kinds_of
+    from hysteresis_bench.commands.plugins.describe import describe, kinds_of, told_of
 
     known = (*KINDS, "studies")
     console = plain_console()
@@ -33,13 +35,30 @@ def list_plugins(what: str | None) -> None:
         if not kinds_of(what):
             everything = {*known, *registry.offered(), *(name for kind in KINDS for name in registry.names(kind))}
             raise UserError("list", f'there are no "{what}". {_nearest(what, known, everything)}')
+        if as_json:
+            say_json([told_of(kind, what) for kind in kinds_of(what)])
+            return
         describe(what, console)
+        return
+    if as_json:
+        say_json({kind: _rows(kind) for kind in KINDS if what in (None, kind)})
         return
     for kind in KINDS:
         if what in (None, kind):
             _list_kind(kind, console)
     if what in (None, "studies"):
         _list_studies(console)
+
+
+def _rows(kind: registry.Kind) -> list[dict[str, str]]:
+    """The plugins of a kind, for programs."""
+    from hysteresis_bench import registry
+
+    return [
+        {"name": one.name, "summary": one.summary, "distribution": one.distribution, "version": one.version}
+        | ({"fault": one.fault} if one.fault else {})
+        for one in registry.registered(kind)
+    ]
 
 
 def _nearest(what: str, kinds: tuple[str, ...], everything: set[str]) -> str:

@@ -7,8 +7,12 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import click
+
 if TYPE_CHECKING:
     from rich.console import Console
+
+open_option = click.option("--open", "open_page", is_flag=True, help="Open the page in a browser.")
 
 
 def plain_console() -> Console:
@@ -32,3 +36,13 @@ def say_notes(console: Console, notes: Sequence[str]) -> None:
 def say_path(console: Console, what: str, path: Path) -> None:
     """Where something was written, on one line however long the path is."""
     console.print(f"{what}: {path}", highlight=False, soft_wrap=True)
+
+
+def say_page(console: Console, page: Path, wanted: bool) -> None:
+    """Where a page is; and opened, where that is wanted and there is a browser."""
+    say_path(console, "page", page)
+    if wanted:
+        import webbrowser
+
+        if not webbrowser.open(page.resolve().as_uri()):
+            console.print("No browser was found; open the page above in one.", highlight=False)

@@ -9,6 +9,9 @@ from typing import TYPE_CHECKING
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from hysteresis_bench.commands.terminal.steps import steps_told
+from hysteresis_bench.progress import Step
+
 if TYPE_CHECKING:
     from hysteresis_bench.study.run import Progress as StudyProgress
 
@@ -16,6 +19,15 @@ if TYPE_CHECKING:
 @contextmanager
 def progress_bar(console: Console) -> Iterator[Callable[[StudyProgress], None]]:
     """Yields what a study calls after every trial."""
+    if not console.is_terminal:
+        with steps_told("run") as on_step:
+
+            def on_trial(progress: StudyProgress) -> None:
+                over = progress.total and progress.done == progress.total
+                on_step(Step("what follows the trials") if over else Step("trials", progress.done, progress.total))
+
+            yield on_trial
+        return
     best: dict[str, tuple[float, str]] = {}
     failed = 0
     columns = (

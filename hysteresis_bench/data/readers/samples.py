@@ -162,6 +162,8 @@ def _understood(
             return ""
         unit = units.get(role)
         plain = source in (role, f"{role} [{unit}]")
+        if unit and not plain and unit in source:
+            return source
         return f"{'' if plain else source + ', '}{'in ' + unit if unit else 'no unit'}"
 
     return {**{role: told(role) for role in ROLES}, "gaps": str(len(gaps))}

@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
+from hysteresis_bench.progress import Step
 
 QUIETER = 0.9
 """The noise without a disturbance that was found, over that with it, from which the search goes on with the new
@@ -64,8 +65,10 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
         for part in (records, thinned(prepared.views))
     )
     possible, impossible = thin.stack.candidates()
-    with Workers[Hypothesis](thin, question.options.jobs or min(4, os.cpu_count() or 1)) as workers:
+    on_step = question.options.on_step
+    with Workers[Hypothesis](thin, question.options.jobs or min(4, os.cpu_count() or 1), on_step) as workers:
         selection = Selection(thin, workers, evidence.floor, possible)
+        on_step(Step("the bare model"))
         base = thin.bare(frozenset({registry.RECORD_OFFSET}))
         best = selection.run(base)
         quieter = evidence.heard_anew(undisturbed(full, best))
@@ -73,6 +76,7 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
             evidence = quieter
             selection.floor = evidence.floor
             best = selection.run(best)
+        on_step(Step("what the data say of the selection"))
         answers = follows(full, best)
         best = best if answers else base
         order = _in_order(selection, base, best)

@@ -1,0 +1,1 @@
+"""What study, model and diagnosis files hold, as JSON schemas: for editors, and for programs that read them."""

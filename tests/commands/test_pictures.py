@@ -1,0 +1,62 @@
+"""`predict --plot` and `control --reference` draw; pages open, or say where they are."""
+
+import webbrowser
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hysteresis_bench.cli import main
+from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
+
+VALUES = {"alpha": (0.35, "1"), "beta": (0.7, "1/V"), "gamma": (0.15, "1/V"), "d": (1.2, "um/V")}
+MODEL = FittedModel(
+    "bouc-wen",
+    {"n": 1.0},
+    (),
+    {},
+    {"time": "s", "input": "V", "output": "um"},
+    {name: Estimate(value, None, unit) for name, (value, unit) in VALUES.items()},
+)
+ROWS = [f"{i / 100},{3 * np.sin(i / 9):.6f},{3 * np.sin(i / 9):.6f}" for i in range(120)]
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_model(tmp_path / "model.json", MODEL)
+    (tmp_path / "loop.csv").write_text("time [s],input [V],output [um]\n" + "\n".join(ROWS), encoding="utf-8")
+    return tmp_path
+
+
+def told(*arguments, code=0):
+    done = CliRunner().invoke(main, list(arguments))
+    assert done.exit_code == code, done.output
+    return " ".join(done.output.split())
+
+
+def test_predict_draws_and_tells_the_error(here):
+    said = told("predict", "model.json", "loop.csv", "--out", "p.csv", "--plot", "p.svg")
+    assert "RMSE" in said
+    assert "predicted minus measured" in (here / "p.svg").read_text(encoding="utf-8")
+    assert "Output (" in (here / "p.svg").read_text(encoding="utf-8")
+
+
+def test_control_draws_tracking(here):
+    said = told("control", "model.json", "--reference", "loop.csv", "--out", "c")
+    assert "figure: c/tracking.svg" in said
+    assert "wanted" in (here / "c" / "tracking.svg").read_text(encoding="utf-8")
+    told("control", "model.json", "--reference", "loop.csv", "--out", "c", "--plot", "t.pdf")
+    assert (here / "t.pdf").read_bytes().startswith(b"%PDF")
+    assert "--plot draws what --reference makes" in told(
+        "control", "model.json", "--rig", "pea", "--plot", "x.png", code=2
+    )
+
+
+@pytest.mark.parametrize("found", [True, False])
+def test_a_page_is_opened_or_told(here, monkeypatch, found):
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", lambda address: opened.append(address) or found)
+    said = told("fit", "loop.csv", "--model", "polynomial", "--budget", "60", "--open")
+    assert opened[0].endswith("loop-fit/fit.html")
+    assert ("No browser was found" in said) is not found

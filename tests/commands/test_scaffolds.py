@@ -1,0 +1,72 @@
+"""`new-study` runs, `schema` says what files hold, `--json` is read by programs."""
+
+import json
+import tomllib
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hysteresis_bench.cli import main
+from hysteresis_bench.schemas.forms import NAMES, generated, schema
+from hysteresis_bench.study.study_file import read_study
+
+ROWS = [(i / 50, 3 * np.sin(i / 9), 2 * np.sin(i / 9 - 0.2) + 0.01 * np.cos(1.7 * i)) for i in range(120)]
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("slow", "fast"):
+        lines = [";".join(f"{value:.5f}".replace(".", ",") for value in row) for row in ROWS]
+        (tmp_path / f"{name}.csv").write_text("time (s);drive (V);way (um)\n" + "\n".join(lines), encoding="utf-8")
+    return tmp_path
+
+
+ROLES = ("--input", "drive", "--output", "way")
+
+
+def told(*arguments, code=0):
+    done = CliRunner().invoke(main, list(arguments))
+    assert done.exit_code == code, done.output
+    return done.stdout
+
+
+def test_a_new_study_is_read_and_plain_records_are_written(here):
+    told("new-study", "slow.csv", "fast.csv", *ROLES, "--model", "bouc-wen", "--out", "mine.toml")
+    study, text = read_study(here / "mine.toml")
+    assert text.startswith("#:schema ./study.schema.json")
+    assert study.problem[0].data == ["mine-records.csv"]
+    assert study.problem[0].held_out == ["mine-records:fast"]
+    assert len(study.optimizer) == 3
+    said = told("new-study", "slow.csv", *ROLES, "--model", "bouc-wenn", code=2)
+    assert said == ""
+
+
+def test_schemas_are_what_the_forms_say(here):
+    jsonschema = pytest.importorskip("jsonschema")
+    for name in NAMES:
+        assert schema(name) == generated(name)
+        assert json.loads(told("schema", name)) == schema(name)
+    told("new-study", "slow.csv", *ROLES, "--model", "bouc-wen", "--out", "mine.toml")
+    jsonschema.validate(tomllib.loads((here / "mine.toml").read_text(encoding="utf-8")), schema("study"))
+    with pytest.raises(jsonschema.ValidationError):
+        jsonschema.validate({"title": "x"}, schema("study"))
+
+
+def test_json_of_fit_predict_and_diagnose(here):
+    jsonschema = pytest.importorskip("jsonschema")
+    fitted = json.loads(told("fit", "slow.csv", *ROLES, "--model", "polynomial", "--budget", "100", "--json"))
+    assert {row["name"] for row in fitted["parameters"]} == {"a", "b"}
+    jsonschema.validate(json.loads((here / "slow-fit" / "model.json").read_text()), schema("model"))
+    predicted = json.loads(told("predict", "slow-fit/model.json", "fast.csv", *ROLES, "--out", "p.csv", "--json"))
+    assert predicted["records"]["fast"]["rmse"] > 0.0
+    found = json.loads(told("diagnose", "slow.csv", *ROLES, "--model", "polynomial", "--jobs", "1", "--json"))
+    jsonschema.validate(found, schema("diagnosis"))
+
+
+def test_json_of_lists():
+    assert "bouc-wen" in {row["name"] for row in json.loads(told("list", "models", "--json"))["models"]}
+    (one,) = json.loads(told("list", "creep", "--json"))
+    assert [parameter["name"] for parameter in one["parameters"]] == ["share", "time_constant", "decades"]
+    assert "arrives late" in one["says"]
