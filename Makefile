@@ -29,6 +29,7 @@ docs: .venv/installed-docs
 # Under ten minutes: ratios inside one run, each line held or missed.
 benchmark: .venv/installed-test
 	for subject in $(SUBJECTS); do $(BIN)/python benchmarks/$$subject.py || exit; done
+	$(BIN)/python benchmarks/search.py --truths 5
 
 # About ten minutes: bad trials, kills of the runner and of its workers.
 torture: .venv/installed-test

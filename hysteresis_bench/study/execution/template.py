@@ -101,14 +101,13 @@ def serve(descriptor: int) -> None:
         return
     resource.setrlimit(resource.RLIMIT_DATA, (memory, resource.getrlimit(resource.RLIMIT_DATA)[1]))
     resource.setrlimit(resource.RLIMIT_CORE, (0, resource.getrlimit(resource.RLIMIT_CORE)[1]))
-    with economical():
-        for step in warm:
-            with suppress(Exception):  # the ticket that needs it will tell
-                step()
-        gc.freeze()
-        with suppress(EOFError, OSError):
-            send(control, READY)
-            _Forks(control, prepare).serve()
+    for step in warm:
+        with suppress(Exception):  # the ticket that needs it will tell
+            step()
+    gc.freeze()
+    with economical(), suppress(EOFError, OSError):  # only now: what the steps have freed need not be forked
+        send(control, READY)
+        _Forks(control, prepare).serve()
 
 
 class _Forks:
