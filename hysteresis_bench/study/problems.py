@@ -45,10 +45,13 @@ def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
 
 
 def dataset_of(spec: ProblemSpec, seed: int, folder: Path) -> Dataset:
-    """What is fitted and what is held out, as the problem prepares it."""
+    """What is fitted and what is held out, as the problem prepares it. Raises UserError where nothing is left."""
     dataset = _of_rig(spec, seed) if spec.rig else _read(spec, folder)
     if spec.skip is not None:
-        dataset = dataset.map(Preparation(skip=spec.skip).skipped)
+        preparation = Preparation(skip=spec.skip)
+        if faults := preparation.faults(dataset.records):
+            raise UserError(f'problem "{spec.name}"', faults)
+        dataset = dataset.map(preparation.skipped)
     if spec.settle:
         dataset = dataset.map(lambda record: record.settled(SETTLING_REPEATS))
     return dataset

@@ -10,10 +10,12 @@ from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.provenance import UNCHECKED
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, STUDY, TRIALS, read_results
 from hysteresis_bench.study.run import run_study
 from hysteresis_bench.study.store import FILE
+from hysteresis_bench.study.study_file import ProblemSpec
 
 TEXT = """
 title = "t"
@@ -132,3 +134,9 @@ def test_a_published_file_that_is_a_link_to_elsewhere_is_not_copied(again):
 
     with pytest.raises(UserError, match="is a link to"):
         again(link)
+
+
+def test_skipping_all_of_a_record_is_told(ran):
+    spec = ProblemSpec(name="p", model="hammerstein", data=["here.csv"], skip="10 s")
+    with pytest.raises(UserError, match=r'problem "p": record here: skipping 10 s leaves nothing'):
+        build_problem(spec, 1, ran[0] / "study")
