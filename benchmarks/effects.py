@@ -72,7 +72,7 @@ def systems() -> list[Line]:
     """Of a model with effects around it, its time over that of the bare one."""
     from hysteresis_bench import registry
     from hysteresis_bench.compose import System
-    from hysteresis_bench.fit.resources import economical
+    from hysteresis_bench.kernels.resources import economical
     from hysteresis_bench.signals import Record
 
     grid = np.linspace(0.0, 6.0, SAMPLES)

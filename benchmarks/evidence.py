@@ -17,7 +17,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset, Record, Signal
 
 SAMPLES, RECORDS, ROUNDS = 15_000, 3, 2

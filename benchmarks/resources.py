@@ -19,7 +19,7 @@ from hysteresis_bench import DiagnosisOptions, diagnose, fit
 from hysteresis_bench.compose import System
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Dataset, Record, Signal
 from hysteresis_plugins.models.bouc_wen import BoucWen

@@ -16,6 +16,7 @@ import time
 from pathlib import Path
 
 import numpy as np
+from table import Line, show
 
 from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.signals import Dataset, Record
@@ -61,9 +62,11 @@ def main() -> None:
         folder = Path(name)
         ramp = np.linspace(0.0, 1.0, 200)
         write_csv(folder / "data.csv", Dataset((Record(ramp, np.sin(9.0 * ramp), np.cos(9.0 * ramp)),)))
-        for kind, (model, optimizer, trials) in KINDS.items():
-            times = [milliseconds(folder, model, optimizer, trials, scheduler) for _ in range(3)]
-            print(f"{kind:40} {min(times):8.2f} ms a trial beyond its search (best of three times {trials})")
+        lines = [
+            Line(kind, min(milliseconds(folder, model, optimizer, trials, scheduler) for _ in range(3)))
+            for kind, (model, optimizer, trials) in KINDS.items()
+        ]
+        show("A trial beyond its search, the best of three times", "ms", lines)
 
 
 if __name__ == "__main__":

@@ -39,6 +39,10 @@ BOUC_WEN, HAMMERSTEIN = "bouc-wen", "hammerstein"
 """The models whose inverse `control` knows: hysteresis alone, and with a linear section behind it."""
 
 
+LARGEST_INTEGER = 2**63 - 1
+"""Of a setting: beyond it, Python's integers are no numbers of an array."""
+
+
 @dataclass(frozen=True)
 class Plugin:
     """A registered name, what it is, and where it comes from.
@@ -231,4 +235,6 @@ def _fits(value: Any, expected: Any) -> bool:
     if isinstance(value, bool):
         return bool in options
     allowed = tuple(option for option in options if isinstance(option, type))
-    return isinstance(value, allowed) or (float in allowed and isinstance(value, int) and abs(value) < 2**1023)
+    if isinstance(value, int) and abs(value) > LARGEST_INTEGER:
+        return False
+    return isinstance(value, allowed) or (float in allowed and isinstance(value, int))

@@ -79,7 +79,7 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     """
     asked = asked_for(study)
     before = read_closing(Reader(results))
-    if before and before.finished and before.outcome["asked"] == asked:
+    if before and before.finished and before.outcome.get("asked") == asked:
         return
     out = results / f"{CLOSING}.part"
     shutil.rmtree(out, ignore_errors=True)

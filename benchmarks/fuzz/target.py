@@ -24,8 +24,8 @@ from hysteresis_bench.errors import UserError
 
 LIMIT = 30.0
 """Seconds that an input may take on a loaded machine; beyond thrice that the process ends with a traceback."""
-LONGEST = 4000
-"""Characters of a message that somebody reads."""
+LONGEST = 2000
+"""Characters of a sentence that somebody reads; a file may have many faults, and gets a sentence on each."""
 SHOWN = 600
 """Characters of an input that are told."""
 KINDS = ("answers", "sentences", "tracebacks", "hangs", "wrong")
@@ -111,7 +111,7 @@ def _asked(target: Target, given: Any) -> tuple[str, str]:
         target.ask(given)
         return "answers", ""
     except UserError as error:
-        sound = str(error).isprintable() and len(str(error)) < LONGEST
+        sound = str(error).isprintable() and max(map(len, error.faults)) < LONGEST
         return ("sentences", "") if sound else ("wrong", "a sentence that is too long, or not to be printed")
     except OSError:  # the command line tells it in a sentence
         return "sentences", ""

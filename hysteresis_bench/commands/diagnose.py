@@ -9,6 +9,14 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.data.parameters import (
+    bounds_option,
+    fix_option,
+    pairs,
+    setting_option,
+    settings_of,
+    values,
+)
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option
@@ -31,6 +39,9 @@ SHOWN = 8
 @click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Where the law is sought.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
+@setting_option
+@bounds_option
+@fix_option
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
 @click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
@@ -49,6 +60,9 @@ def diagnose(
     models: str,
     held_out: Sequence[str],
     effects: Sequence[str],
+    settings: Sequence[str],
+    bounds: Sequence[str],
+    fixed: Sequence[str],
     input_offset: float,
     flip: bool,
     skip: float,
@@ -78,10 +92,11 @@ def diagnose(
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
     laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
+    asked = {"settings": settings_of(settings), "bounds": pairs(bounds), "fixed": values(fixed)}
     kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
     with told_when_stopped("diagnose", lambda: kept, anew), steps_told("diagnose") as on_step:
         options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws, on_step)
-        found = find(dataset, model, effects, options=options)
+        found = find(dataset, model, effects, **asked, options=options)
     path = write_diagnosis(folder, found, data)
     page = write_diagnosis_page(path.parent)
     if as_json:

@@ -2,24 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.data.parameters import (
+    bounds_option,
+    fix_option,
+    pairs,
+    setting_option,
+    settings_of,
+    values,
+)
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
-from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
-
-Value = TypeVar("Value")
 
 
 @click.command()
@@ -27,8 +32,9 @@ Value = TypeVar("Value")
 @data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
-@click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter.")
-@click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known.")
+@setting_option
+@bounds_option
+@fix_option
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
 @click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
 @click.option("--flip", is_flag=True, help="Change the sign of the input.")
@@ -50,6 +56,7 @@ def fit(
     layout: Layout,
     model: str,
     effects: Sequence[str],
+    settings: Sequence[str],
     bounds: Sequence[str],
     fixed: Sequence[str],
     held_out: Sequence[str],
@@ -88,10 +95,11 @@ def fit(
         skip=skip,
         settle=settle,
     )
+    asked = {"settings": settings_of(settings), "bounds": pairs(bounds), "fixed": values(fixed)}
     kept = f"nothing was written to {folder}"
     with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
         options = replace(options, on_step=on_step)
-        fitted = fit_model(dataset, model, effects, bounds=_pairs(bounds), fixed=_values(fixed), options=options)
+        fitted = fit_model(dataset, model, effects, **asked, options=options)
     page = write_fit(folder, fitted, data)
     if as_json:
         tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}
@@ -100,34 +108,3 @@ def fit(
         return
     print_fit(fitted, console)
     say_page(console, page, open_page)
-
-
-def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
-    """P=LO:HI ..."""
-
-    def interval(text: str) -> tuple[float, float]:
-        low, _, high = text.partition(":")
-        return float(low), float(high)
-
-    return _by_name(texts, interval, "--bounds", "PARAMETER=LOW:HIGH, such as a=0.1:10")
-
-
-def _values(texts: Sequence[str]) -> dict[str, float]:
-    """P=VALUE ..."""
-    return _by_name(texts, float, "--fix", "PARAMETER=VALUE, such as n=1")
-
-
-def _by_name(texts: Sequence[str], read: Callable[[str], Value], option: str, form: str) -> dict[str, Value]:
-    found: dict[str, Value] = {}
-    faults = []
-    for text in texts:
-        name, _, value = text.partition("=")
-        if name.strip() in found:
-            faults.append(f'"{name.strip()}" is given twice.')
-        try:
-            found[name.strip()] = read(value)
-        except ValueError:
-            faults.append(f'"{text}" should read {form}.')
-    if faults:
-        raise UserError(option, faults)
-    return found

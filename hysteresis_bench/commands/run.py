@@ -81,8 +81,8 @@ def run(
 def _report(results: Results, console: Console) -> int:
     """Write and print it; returns the exit code."""
     from hysteresis_bench.report.study import write_report
-    from hysteresis_bench.report.study.closing_section import closing_in_words
     from hysteresis_bench.report.study.console import print_summary
+    from hysteresis_bench.report.study.page import how_it_closed
     from hysteresis_bench.study.execution.pool import MACHINE
     from hysteresis_bench.study.results import FINISHED
 
@@ -96,8 +96,8 @@ def _report(results: Results, console: Console) -> int:
         console.print(told, highlight=False, markup=False)
     if failed["status"].isin(MACHINE).any():
         console.print("What the machine failed at is done again by `run --retry`.", highlight=False)
-    if results.closing:
-        console.print(closing_in_words(results.closing), highlight=False, markup=False)
+    for told in how_it_closed(results):
+        console.print(told, highlight=False, markup=False)
     say_path(console, "report", page)
     unfinished = len(failed) or (results.closing and not results.closing.finished)
     return FAILED_TRIALS if unfinished else DONE

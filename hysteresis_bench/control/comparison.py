@@ -20,8 +20,8 @@ from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.suitability import check_units, range_words
 from hysteresis_bench.fit.model_file import FittedModel
-from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.seeds import generator
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.progress import OnStep, Step, quiet
 
 RATE = 10_000.0  # 1/s

@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 

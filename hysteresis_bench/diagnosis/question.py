@@ -11,7 +11,7 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.checks.asked import asked_faults
+from hysteresis_bench.fit.checks.asked import asked_faults, parameter_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.progress import OnStep, quiet
@@ -78,6 +78,7 @@ class Question:
         dataset = dataset.map(self.preparation.skipped)
         faults = asked_faults(self.model, self.settings, self.effects)
         if not faults:
+            faults += parameter_faults(self.built, self.bounds, self.fixed)
             known = registry.build_effects(self.built, self.effects)
             reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}
             faults += [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]

@@ -51,7 +51,13 @@ def _case(content: Mapping[str, Any]) -> Case:
         if not isinstance(value, kinds) or isinstance(value, bool):
             raise TypeError(f"{field.name} is {value!r}")
         values[field.name] = value
-    return Case(**values)
+    case = Case(**values)
+    if sorted(f"{case.named} {case.tied} {case.missed}".split()) != sorted(case.hidden.split()):
+        raise TypeError("what is hidden is neither named, tied nor missed")
+    claimed = set(case.claimed.split())
+    if not set(case.extra.split()) <= claimed or not all(claimed & set(e.split("|")) for e in case.named.split()):
+        raise TypeError("what is named or extra is not claimed")
+    return case
 
 
 def is_finished(folder: Path, ticket: CaseTicket) -> bool:

@@ -24,10 +24,10 @@ from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
-from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.progress import OnStep, Step, quiet
 from hysteresis_bench.signals import Dataset, Record
@@ -164,7 +164,7 @@ def fit_records(
         (
             *system.model.advice(seen.fitted),
             *not_closed(best.gap, best.repeats),
-            *_edges(parameters),
+            *_edges(parameters, system.linear),
             *analysis.sentences(),
         ),
         (*dataset.notes, *_notes(space, options, best.repeats)),
@@ -253,11 +253,13 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         repeats *= 2
 
 
-def _edges(parameters: pd.DataFrame) -> list[str]:
+def _edges(parameters: pd.DataFrame, linear: Sequence[str]) -> list[str]:
+    """A weight of 0 is no edge: that part of a sum is not there."""
+    off = parameters["name"].isin(linear) & (parameters["value"].abs() <= 1e-12 * parameters["value"].abs().max())
     return [
         f"{row.name} lies at the edge of its box ({row.value:.4g}): the optimum may lie outside, and its standard "
         f"error means little."
-        for row in parameters[parameters["at_bound"]].itertuples(index=False)
+        for row in parameters[parameters["at_bound"] & ~off].itertuples(index=False)
     ]
 
 

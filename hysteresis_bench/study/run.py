@@ -12,8 +12,8 @@ import pandas as pd
 
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError, told
-from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.seeds import seed_of
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
 from hysteresis_bench.study.execution.cluster import Cluster

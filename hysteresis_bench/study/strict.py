@@ -23,13 +23,15 @@ class Strict(BaseModel):
 
 Form = TypeVar("Form", bound=Strict)
 
+LONGEST_TIME = 1e9
+"""Of a time limit, as a number: thirty years of seconds."""
 SECONDS = {"s": 1.0, "sec": 1.0, "min": 60.0, "h": 3600.0}
 
 
 def duration(text: Any) -> float:
     """ "10 min" -> 600.0 seconds; a bare number is seconds. Raises ValueError."""
     match = re.fullmatch(r"\s*([0-9.]+)\s*(s|sec|min|h)?\s*", str(text))
-    if not match or float(match[1]) <= 0:
+    if not match or not 0.0 < float(match[1]) < LONGEST_TIME:
         raise ValueError(f'{text!r} is not a time such as "90 s", "10 min" or "1 h"')
     return float(match[1]) * SECONDS[match[2] or "s"]
 

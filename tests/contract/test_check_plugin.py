@@ -63,7 +63,7 @@ TOLD = {
     "rigs": {
         "unitless": "output has no unit",
         "unseeded": "gives other data with the same generator",
-        "backwards": "time does not increase strictly",
+        "backwards": "times must be finite and strictly increase",
         "anything": "measures an experiment that it does not declare",
         "promises": "NotImplementedError: not yet",
         "no-experiments": "lacks experiments",

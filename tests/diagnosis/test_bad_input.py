@@ -147,3 +147,18 @@ def test_unknown_model_and_too_few_samples_are_told_together():
     record = first(make(3, "bouc-wen", hidden=()).dataset)
     with pytest.raises(UserError, match="2 faults"):
         diagnose(Dataset((record.take(slice(0, 12)),)), Question("bouc-when"))
+
+
+def test_bounds_and_values_of_parameters_that_are_not_there_are_told():
+    """Also beside those of effects that the search may add, which are known."""
+    time = np.linspace(0.0, 1.0, 200)
+    record = Record(time, np.sin(19.0 * time), np.cos(19.0 * time))
+    asked = Question(
+        "bouc-wen",
+        bounds={"alpah": (0.0, 1.0), "input-lag.time_constant": (0.2, 0.1)},
+        fixed={"creep.shares": 0.1, "beta": np.nan},
+    )
+    with pytest.raises(UserError) as told:
+        diagnose(Dataset((record,)), asked)
+    for said in ('no parameter "alpah"', "is above high", 'no parameter "creep.shares"', "must be finite"):
+        assert said in str(told.value)

@@ -135,3 +135,15 @@ def test_the_command_writes_table_and_page(tmp_path):
     page = (out / "laws.html").read_text()
     assert "The law is bouc-wen" in page
     assert json.dumps("held out")[1:-1] in page
+
+
+def test_a_setting_of_the_model_is_taken_from_the_command_line(tmp_path):
+    path = tmp_path / "run.csv"
+    write_csv(path, Dataset(records(BOUC_WEN)[:1]))
+    asked = ["fit", str(path), "--model", "prandtl-ishlinskii", "--out", str(tmp_path / "fit")]
+    said = CliRunner().invoke(main, [*asked, "--set", "plays=3"])
+    assert said.exit_code == 0, said.output
+    assert json.loads((tmp_path / "fit" / "model.json").read_text())["settings"] == {"plays": 3}
+    said = CliRunner().invoke(main, [*asked, "--set", "plyas=3", "--set", "plyas=4"])
+    assert said.exit_code == 2
+    assert "given twice" in said.output

@@ -8,7 +8,7 @@ import pytest
 from threadpoolctl import threadpool_info
 
 from hysteresis_bench import FitOptions, fit
-from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset, Record
 
 GLIBC = sys.platform == "linux" and hasattr(ctypes.CDLL(None), "mallopt")
@@ -40,7 +40,7 @@ def test_settings_come_back_after_a_fault():
 
 def test_scipys_own_blas_is_limited_though_nobody_has_imported_it():
     code = """
-from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.kernels.resources import economical
 from threadpoolctl import threadpool_info
 with economical():
     import scipy.linalg

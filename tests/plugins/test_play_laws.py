@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import registry
-from hysteresis_bench.signals import Record
+from hysteresis_bench.fit.fitting import FitOptions, fit_records
+from hysteresis_bench.fit.model_file import read_model, write_model
+from hysteresis_bench.signals import Dataset, Record
 from hysteresis_plugins.models._data import sense
 from hysteresis_plugins.models.prandtl_ishlinskii import PrandtlIshlinskii
 from hysteresis_plugins.models.prandtl_ishlinskii_modified import PrandtlIshlinskiiModified
@@ -117,3 +119,18 @@ def test_a_density_is_read_off_reversal_curves():
     found = solved(law, one, **{name: truth[name] for name in ("radius", "centre", "reach")})
     np.testing.assert_allclose([found[name] for name in law.linear], [truth[name] for name in law.linear], rtol=1e-6)
     assert not held(law, [one], truth)
+
+
+def test_a_fitted_law_keeps_its_settings_and_its_radius(tmp_path):
+    law = PrandtlIshlinskii(plays=2)
+    one = record(law, waves(), radius=0.9, slope=1.6, w1=0.8, w2=0.3)
+    data = Dataset((replace(one, units={"time": "s", "input": "V", "output": "um"}),))
+    options = FitOptions(budget=300, seed=1)
+    found = fit_records(data, "prandtl-ishlinskii", settings={"plays": 2}, options=options)
+    write_model(tmp_path / "model.json", found.model)
+    again = read_model(tmp_path / "model.json")
+    assert [q.name for q in again.system.parameters] == ["radius", "slope", "w1", "w2"]
+    assert again.parameters["radius"].unit == "V"
+    predicted = again.predict(data).records[0].output
+    assert np.array_equal(predicted, found.model.predict(data).records[0].output)
+    assert found.records["relative_rms"].max() < 0.02

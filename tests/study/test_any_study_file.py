@@ -69,6 +69,8 @@ def test_one_odd_value_is_a_study_or_a_sentence(name, place, value):
         (("problem", 0, "optimizers"), ["pso", "pso"], '"pso" is named twice'),
         (("optimizer", 0, "label"), "a\tb", "cannot be printed"),
         (("published",), "../elsewhere.toml", "lies outside"),
+        (("timeout",), 10**400, "is not a time"),
+        (("optimizer", 0, "settings"), {"particles": 10**400}, "must be of type int"),
     ],
 )
 def test_the_sentence_names_the_place(place, value, words):

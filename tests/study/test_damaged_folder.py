@@ -1,7 +1,10 @@
 """Results folders that a full disk, a kill or a careless hand has damaged: read as far as they go, or a sentence."""
 
+import json
+import sqlite3
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from hysteresis_bench.errors import UserError
@@ -79,6 +82,39 @@ def test_a_kept_folder_without_its_store_is_reported_beside_its_page(folder):
 def test_a_page_is_written_without_what_is_damaged(folder, file):
     HOW["junk"](folder / file)
     assert f"{file} is damaged" in write_report(folder).read_text(encoding="utf-8")
+
+
+def test_a_section_is_left_out_and_said_where_an_object_holds_what_nobody_wrote(folder):
+    assert "is left out" not in write_report(folder).read_text(encoding="utf-8")
+    whole = json.loads((folder / IDENTIFIABILITY).read_text(encoding="utf-8"))
+    whole[next(iter(whole))]["names"] = 3
+    (folder / IDENTIFIABILITY).write_text(json.dumps(whole), encoding="utf-8")
+    assert "A section is left out" in write_report(folder).read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        "SET fitness = 'x'", "SET fitness = NULL WHERE status = 'done'", "SET status = 'fine'", "SET rmse = 9e999",
+        "SET problem = x'00ff'", "SET parameters = '[1]'", "SET origin = 'x'", "SET trace = x'504b'",
+    ],
+)  # fmt: skip
+def test_a_row_that_no_trial_has_left_is_told(folder, change):
+    with sqlite3.connect(folder / FILE) as store:
+        store.execute(f"UPDATE trials {change}" + (" WHERE rowid = 1" if "WHERE" not in change else ""))
+    store.close()
+    results = read_results(folder)
+    assert any(FILE in said for said in results.damages)
+    assert len(results.trials) == 32
+
+
+@pytest.mark.parametrize("cell", ["nan", "x", "inf", "", "1e999"])
+def test_a_cell_that_is_no_result_is_told(folder, cell):
+    (folder / FILE).unlink()
+    table = pd.read_csv(folder / TRIALS, dtype=str)
+    table.loc[table["status"] == "done", "fitness"] = cell
+    table.to_csv(folder / TRIALS, index=False)
+    assert any(f"{TRIALS} is damaged" in said for said in read_results(folder).damages)
 
 
 def test_a_page_that_is_a_link_is_not_followed(folder, tmp_path):

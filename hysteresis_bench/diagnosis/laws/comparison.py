@@ -22,8 +22,8 @@ from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import FEWEST_SAMPLES, DiagnosisOptions
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.preparation import Preparation
-from hysteresis_bench.fit.resources import economical
 from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
 
 BASELINE = "cubic polynomial"

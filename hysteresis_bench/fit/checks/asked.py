@@ -1,4 +1,4 @@
-"""What is wrong with the names that a fit or a diagnosis is asked for."""
+"""What is wrong with the names and the values that a fit or a diagnosis is asked for."""
 
 from __future__ import annotations
 
@@ -6,6 +6,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hysteresis_bench import registry
+from hysteresis_bench.contracts import Model
+from hysteresis_bench.errors import nearest
+from hysteresis_bench.parameters import Parameter
 
 
 def asked_faults(model: str, settings: Mapping[str, Any], effects: Sequence[str]) -> list[str]:
@@ -16,3 +19,20 @@ def asked_faults(model: str, settings: Mapping[str, Any], effects: Sequence[str]
         if effects.count(effect) > 1:
             faults.append(f'effect "{effect}" is given {effects.count(effect)} times; once is enough.')
     return faults
+
+
+def parameter_faults(model: Model, bounds: Mapping[str, tuple[float, float]], fixed: Mapping[str, float]) -> list[str]:
+    """A sentence on every bound or value whose parameter neither the model nor any effect has, or cannot have."""
+    known: dict[str, Parameter] = {one.name: one for one in model.parameters}
+    for name in {*registry.names("effects"), *registry.offered()}:
+        declared = None if registry.effect_faults(name, "") else registry.effect(name)
+        known |= {f"{name}.{one.name}": one for one in (declared.parameters if declared else ())}
+    faults = []
+    for what, names in (("bounds", bounds), ("fixed", fixed)):
+        faults += [f'{what}: no parameter "{name}". {nearest(name, known)}' for name in names if name not in known]
+    for name, (low, high) in bounds.items():
+        if name in known:
+            scaling = "linear" if low <= 0 else known[name].scaling
+            faults += [f"bounds {fault}" for fault in known[name].within(low, high, scaling).faults()]
+    reasons = (known[name].refuses(value) for name, value in fixed.items() if name in known)
+    return faults + [f"fixed {reason}" for reason in reasons if reason]

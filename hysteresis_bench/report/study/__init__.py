@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from pathlib import Path
 
 import pandas as pd
@@ -28,7 +29,7 @@ def write_report(folder: Path) -> Path:
     Raises UserError where the folder holds no study or no trials, or its published file has faults.
     """
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
-    from hysteresis_bench.report.study.page import study_page
+    from hysteresis_bench.report.study.page import CONTENT, study_page
 
     results = read_results(folder)
     if results.trials.empty:
@@ -37,7 +38,8 @@ def write_report(folder: Path) -> Path:
     richer = not results.traces and (folder / REPORT).is_file()
     closing = results.closing
     if closing and closing.finished and not closing.responses.empty and not richer:
-        write_diagnosis_page(folder / CLOSING)
+        with suppress(*CONTENT):  # the section on it tells what is damaged
+            write_diagnosis_page(folder / CLOSING)
     summary = summarise(results)
     parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
     if not richer:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
 
+from hysteresis_bench.errors import told
 from hysteresis_bench.report.paper import audit, beside, claims, decisions
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches import section as searches
@@ -26,6 +27,10 @@ from hysteresis_bench.report.study import (
 from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.results import Results
 
+Part = Callable[[], Section | None]
+CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
+"""What a table or an object raises that has not the content it was written with."""
+
 
 def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     """The whole page; its figures are written to the folder. summary : of summarise(results)
@@ -38,30 +43,52 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     reference = here[0].reference if here else results.study.reference
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
 
-    def sections() -> Iterator[Section | None]:
-        yield run.section(results, here)
-        yield beside.section(published, results, everybody)
-        yield claims.section(judged)
-        yield optimizers.at_equal_evaluations(here, summary, reference, looks=looks, folder=folder)
-        yield optimizers.at_other_budgets(results)
-        yield optimizers.at_the_papers_iterations(results, here, published.iterations)
-        yield searches.section(results, here, published.optimizers, looks=looks, folder=folder)
-        yield signals.section(results, here, published.optimizers, looks=looks, folder=folder)
-        yield held_out.section(results, here, summary, published=published)
-        yield stages.section(results, published, folder)
-        yield determined.section(results, folder)
-        yield audit.section(audit.audit(published))
-        yield closing_section.section(results, folder)
-        yield decisions.section(published, results.study.notes)
-        yield definitions.section(folder)
-
-    ends = [closing_section.closing_in_words(results.closing)] if results.closing else []
+    parts: list[Part] = [
+        lambda: run.section(results, here),
+        lambda: beside.section(published, results, everybody),
+        lambda: claims.section(judged),
+        lambda: optimizers.at_equal_evaluations(here, summary, reference, looks=looks, folder=folder),
+        lambda: optimizers.at_other_budgets(results),
+        lambda: optimizers.at_the_papers_iterations(results, here, published.iterations),
+        lambda: searches.section(results, here, published.optimizers, looks=looks, folder=folder),
+        lambda: signals.section(results, here, published.optimizers, looks=looks, folder=folder),
+        lambda: held_out.section(results, here, summary, published=published),
+        lambda: stages.section(results, published, folder),
+        lambda: determined.section(results, folder),
+        lambda: audit.section(audit.audit(published)),
+        lambda: closing_section.section(results, folder),
+        lambda: decisions.section(published, results.study.notes),
+        lambda: definitions.section(folder),
+    ]
+    sections, damages = whole(parts)
     return Page(
         results.study.title,
         "hysteresis-bench study",
-        [section for section in sections() if section],
-        [*words.answer(here, summary, judged), *ends],
-        warnings=results.damages,
+        sections,
+        [*words.answer(here, summary, judged), *how_it_closed(results)],
+        warnings=[*results.damages, *damages],
         warned="What is not here",
         contents=True,
     )
+
+
+def whole(parts: Sequence[Part]) -> tuple[list[Section], list[str]]:
+    """The sections that can be written, and a sentence on each that cannot: a file may hold what nobody wrote there."""
+    sections, damages = [], []
+    for part in parts:
+        try:
+            section = part()
+        except CONTENT as error:
+            reason = f"what it is made of is damaged ({told(error)}); run the study again to rebuild it"
+            damages.append(f"A section is left out: {reason}.")
+        else:
+            sections += [section] if section else []
+    return sections, damages
+
+
+def how_it_closed(results: Results) -> list[str]:
+    """What the diagnosis at the end came to."""
+    try:
+        return [closing_section.closing_in_words(results.closing)] if results.closing else []
+    except CONTENT:  # its section says so
+        return []

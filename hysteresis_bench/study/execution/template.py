@@ -18,7 +18,7 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 
-from hysteresis_bench.fit.resources import economical
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.study.execution.lifetime import adopt_orphans, end_group, end_orphans, end_with
 from hysteresis_bench.study.execution.messages import Inbox, receive, send
 from hysteresis_bench.study.execution.worker import Prepare, work

@@ -78,7 +78,10 @@ class BoucWen(Model):
         alpha, beta, gamma, d = self.parameters
         span, side = input_span(records), sense(records)
         ratio = output_span(records) / span
-        unit = 1.0 / (span * output_span(records) ** (self.n - 1.0))
+        try:
+            unit = 1.0 / (span * output_span(records) ** (self.n - 1.0))
+        except ArithmeticError:  # a box that is told not to be finite
+            unit = np.inf
         return (
             alpha.within(CLOCKWISE if side <= 0 else 0.0, ANTICLOCKWISE if side >= 0 else 0.0),
             beta.within(0.03 * unit, 1000.0 * unit, "log"),

@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models._data import falling
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
 
 FIELD_PER_MAGNETIZATION = "{input} mu0/{output}"
@@ -83,9 +84,7 @@ class JilesAtherton(Model):
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         u = np.concatenate([record.input[record.scored] for record in records])
         y = np.concatenate([record.measured for record in records])
-        found = []
-        if np.sum((u - u.mean()) * (y - y.mean())) < 0.0:
-            found.append("The output falls while the input rises; Jiles-Atherton only rises. Use --flip.")
+        found = [*falling(records, "Jiles-Atherton only rises")]
         low, span = u.min(), np.ptp(u)
         if span > 0.0 and abs(low + span / 2) > OFF_CENTRE * span and self._saturates(u, y):
             found.append(

@@ -19,7 +19,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, sense, sided, steepness
+from hysteresis_plugins.models._data import STEEPEST, falling, input_span, offset, output_span, sense, sided, steepness
 from hysteresis_plugins.models._plays import RADIUS, at_least, radius_box
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
@@ -53,8 +53,8 @@ class PreisachHats(Model):
     y = slope u + sum over k = 0 to plays of phi_k(P_rk[u]), r_k = radius k / plays; phi_k rises by w_kj from node j - 1
     to node j, and stays outside the nodes [1]; many curves with a reversal of their own determine the weights [2].
     Rate-independent, with wiping out and congruency; linear in slope and weights. With weights from 0 up the loop runs
-    anticlockwise, the curves never fall; the box takes the side of the records' loops, for the curve of the input
-    itself either sign where they run clockwise.
+    anticlockwise, and the curves never fall; the box takes the side of the records' loops, for the curve of the input
+    itself either sign where they run clockwise or fall.
 
     plays : how many besides the input itself, 1 to 40;  pieces : of every curve, 2 to 60
 
@@ -94,7 +94,8 @@ class PreisachHats(Model):
         high = max(float(np.max(record.input)) for record in records)
         half, middle, most = 0.5 * input_span(records), 0.5 * (low + high), STEEPEST * steepness(records)
         side, tallest = sense(records), TALLEST * output_span(records)
-        sides = [side if k or side > 0 else 0 for k in range(self.plays + 1) for _ in range(self.pieces)]
+        rising = side > 0 and not falling(records, "")
+        sides = [side if k or rising else 0 for k in range(self.plays + 1) for _ in range(self.pieces)]
         return (
             radius_box(radius, records, NARROWEST),
             centre.within(middle - 0.5 * half, middle + 0.5 * half),
