@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from re import sub
+from textwrap import wrap
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.export.chain import Chain, chain_of
@@ -52,6 +54,13 @@ def notes(chain: Chain) -> list[str]:
     return said
 
 
+def _head(chain: Chain, indent: str) -> str:
+    """The notes as lines of a comment, which a unit's text cannot end."""
+    lines = [line for note in notes(chain) for line in wrap(note, 100)]
+    safe = "\n".join(f"{indent}{line}".rstrip() for line in lines)
+    return safe.replace("*/", "* /").replace('"', "'").replace("\\", "/").strip()
+
+
 def _call(link_name: str, state: int, constants: int, given: str, mark: str) -> str:
     return f"{link_name}({mark.format('s', state)}, {mark.format('p', constants)}, {given})"
 
@@ -91,7 +100,7 @@ def _python(chain: Chain) -> str:
         index = [(one[0], one[2]) for one in views].index((state, constants))
         step = [line.replace(f"s[{state}], p[{constants}]", f"s[{index}], p[{index}]") for line in step]
         undo = [line.replace(f"s[{state}], p[{constants}]", f"s[{index}], p[{index}]") for line in undo]
-    head = "\n".join(notes(chain))
+    head = _head(chain, "")
     values = "\n".join(f"    {list(link.part.constants)!r},  # {link.name}" for link in chain.links)
     values = values.replace("inf", "math.inf")
     inverse = (
@@ -155,7 +164,7 @@ double hysteresis_inverse(hysteresis_model *model, double output) {{
         if undo
         else ""
     )
-    head = "\n   ".join(notes(chain)).replace("step(", "hysteresis_step(").replace("inverse(", "hysteresis_inverse(")
+    head = sub(r"\b(step|inverse)\(", r"hysteresis_\1(", _head(chain, "   "))
     return f"""/* {head}
    hysteresis_start(&model) puts a model at rest before its first sample. C99; link with -lm. */
 

@@ -223,6 +223,12 @@ def test_c_is_fast_enough(tmp_path, compiler):
     assert best(lambda: called(library.all, t, u)) <= 2.0 * best(lambda: system.simulate(signal, values))
 
 
+def test_a_unit_cannot_end_the_comment(tmp_path, compiler):
+    model = replace(fitted(), units={"time": "s", "input": '*/ int x; """', "output": "um"})
+    assert compiled(model, tmp_path, compiler)
+    assert python_module(exported(model, "python"), tmp_path).step
+
+
 def test_the_command(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     write_model(tmp_path / "model.json", fitted("bouc-wen", ("creep",)))

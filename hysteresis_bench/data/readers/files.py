@@ -147,8 +147,11 @@ def _hdf5(path: Path) -> Mapping[str, Any]:
     try:
         with h5py.File(path, "r") as file:
             return contents(file)
-    except OSError as error:
-        raise UserError(str(path), f"cannot be read as HDF5: {str(error).splitlines()[0]}.") from None
+    except UserError:
+        raise
+    except Exception as error:  # a damaged file raises errors of any type
+        reason = (str(error).splitlines() or ["it is damaged"])[0]
+        raise UserError(str(path), f"cannot be read as HDF5: {reason}.") from None
 
 
 def _of_arrays(stored: Mapping[str, Any], prefix: str = "") -> list[Sheet]:

@@ -27,11 +27,13 @@ MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codec
 def read_text(path: Path, layout: Layout) -> Sheet:
     """The sheet of a text file. Raises UserError for what is no text, no table, or ambiguous."""
     text, notes = _decoded(path)
-    lines = text.splitlines()
+    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if not any(line.strip() for line in lines):
         raise UserError(str(path), "cannot be read as CSV: No columns to parse from file.")
     comments = [index for index, line in enumerate(lines) if COMMENT.match(line) and not _is_header(line, layout)]
     plain = [index for index in range(len(lines)) if lines[index].strip() and index not in set(comments)]
+    if not plain:
+        raise UserError(str(path), "cannot be read as CSV: it holds comments only.")
     head = plain[:TOP]
     mark = layout.mark or _delimiter([lines[index] for index in head])
     rows = [_cells(lines[index], mark) for index in head]

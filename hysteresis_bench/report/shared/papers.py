@@ -11,7 +11,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.shared.text import Units, named
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, STYLE
+from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, STYLE, legend
 from hysteresis_bench.signals import Dataset
 
 COLUMN = 3.4
@@ -80,7 +80,7 @@ def draw_tracking(path: Path, columns: dict[str, Array], units: Units) -> None:
         _label(track, units, "", "output")
         _label(drive, units, "", "input")
         _label(error, units, "time", "output", "error")
-        track.legend(frameon=False)
+        legend(track)
 
     _save(path, 4.6, draw)
 
