@@ -180,6 +180,14 @@ CASES: dict[str, Case] = {
              fast=[["Bench 3"], [], ["time", "input", "output"], ["s", "V", "um"], *ROWS]),
         records=2, suffix=".xlsx",
     ),
+    "xlsx with numbers as text": Case(
+        xlsx(Sheet1=[["time", "input", "output"], *[[t, f"{u:.6f}".replace(".", ","), y] for t, u, y in ROWS]]),
+        suffix=".xlsx",
+    ),
+    "xlsx with thousands or decimals": Case(
+        xlsx(Sheet1=[["time", "input", "output"], *[[n, f"1,{n:03d}", 1.5] for n in range(50)]]),
+        '"1,000" may be a decimal comma or thousands; give --decimal', suffix=".xlsx",
+    ),
     "a text that is a spreadsheet": Case(lambda path: path.write_bytes(b"PK\3\4\0\0"), "is not text"),
     "an old spreadsheet": Case(lambda path: path.write_bytes(b"\xd0\xcf\0"), "save it as .xlsx", suffix=".xls"),
     "a broken spreadsheet": Case(lambda path: path.write_bytes(b"PK"), "cannot be read as a spre", suffix=".xlsx"),

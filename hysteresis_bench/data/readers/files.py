@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.data.layout import Layout
+from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark
 from hysteresis_bench.data.readers.sheet import TOP, Sheet, top_of, units_in
 from hysteresis_bench.data.readers.text import read_text
 from hysteresis_bench.errors import UserError, nearest
@@ -84,16 +85,23 @@ def _spreadsheet(path: Path, layout: Layout) -> list[Sheet]:
         raise UserError(str(path), f"cannot be read as a spreadsheet: {str(error).splitlines()[0]}.") from None
     found = []
     for title, values in pages:
-        rows = [["" if cell is None else str(cell) for cell in row] for row in values]
+        values = [["" if cell is None else cell for cell in row] for row in values]
+        rows = [[str(cell) for cell in row] for row in values]
         filled = [index for index, row in enumerate(rows) if any(cell.strip() for cell in row)]
         if not filled:
             continue
         top = top_of([rows[index] for index in filled[:TOP]], (layout.time, layout.input, layout.output))
         lines = filled[top.data :]
-        cells = pd.DataFrame([rows[index] for index in lines], index=[index + 1 for index in lines])
+        kept = [[cell if type(cell) in (int, float) else str(cell) for cell in values[index]] for index in lines]
+        cells = pd.DataFrame(kept, index=[index + 1 for index in lines])
+        texts = ((index + 1, cell) for index in lines for cell in values[index] if isinstance(cell, str))
+        try:
+            decimal = layout.decimal or decimal_mark(texts)
+        except Ambiguous as error:
+            raise UserError(str(path), f"{title}, {error}") from None
         header = () if top.header is None else tuple(rows[filled[top.header]])
         units = () if top.units is None else units_in(rows[filled[top.units]])
-        found.append(Sheet(title if len(pages) > 1 else "", header, units, cells))
+        found.append(Sheet(title if len(pages) > 1 else "", header, units, cells, decimal))
     return found
 
 

@@ -47,6 +47,8 @@ def number(cell: object, decimal: str = ".") -> float:
             return math.nan
         if decimal == ".":
             return float(cell)
+        if "." not in cell and cell.count(",") < 2:
+            return float(cell.replace(",", "."))
     except ValueError:
         pass
     text = GROUPS[decimal].sub("", cell.strip()).replace("−", "-")
