@@ -13,7 +13,7 @@ from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
-from hysteresis_plugins.effects._ranges import motionless, output_span, without_time
+from hysteresis_plugins.effects._ranges import motionless, one_frequency, output_span, without_time
 
 
 def _integral(time: Array, u: Array) -> Array:
@@ -46,10 +46,12 @@ class Leakage(Effect):
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "drift": "with an input that is not centred at 0 both let the output run away steadily",
         "creep": "both let the output go on while the input holds",
-        "input-lag": "at one frequency both add a part that is a quarter of a period late",
-        "output-lag": "at one frequency both add a part that is a quarter of a period late",
-        "transport-delay": "at one frequency both add a part that is a quarter of a period late",
+        "input-lag": "where frequencies differ little both add a part that is a quarter of a period late",
+        "output-lag": "where frequencies differ little both add a part that is a quarter of a period late",
+        "transport-delay": "where frequencies differ little both add a part that is a quarter of a period late",
     }
+    affine = True
+    linear = ("conductance",)
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_summed,)
     parameters = (Parameter("conductance", -1.0, 1.0, "{output}/({input} {time})", null=0.0, meaning="of what leaks"),)
 
@@ -74,4 +76,8 @@ class Leakage(Effect):
         return (self.parameters[0].within(-most, most),)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
-        return without_time(records) or motionless(records)
+        if reason := without_time(records) or motionless(records):
+            return reason
+        if one_frequency(records):
+            return "at the one frequency of these records leakage is a delay and a drift, which other effects have"
+        return ""
