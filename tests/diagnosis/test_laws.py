@@ -133,7 +133,7 @@ def test_the_command_writes_table_and_page(tmp_path):
     assert "bouc-wen predicts best" in " ".join(said.output.split())
     assert (out / "laws.csv").is_file()
     page = (out / "laws.html").read_text()
-    assert "The law is bouc-wen" in page
+    assert "bouc-wen follows these data" in page
     assert json.dumps("held out")[1:-1] in page
 
 

@@ -18,13 +18,13 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
-from hysteresis_bench.diagnosis.findings.words import WRONG
 from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import LEVEL
 from hysteresis_bench.errors import UserError

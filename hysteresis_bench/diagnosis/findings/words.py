@@ -7,14 +7,12 @@ from dataclasses import dataclass
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.identifiability.combinations import listed
-
-WRONG = 2.0
-"""Times the noise that the final system may leave before its names are doubted."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
-from hysteresis_bench.diagnosis.evidence.noise_floor import floor_of
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
@@ -77,6 +77,9 @@ def compare(
         laws = sorted(workers.map([("law", name) for name in names]), key=lambda law: law.rmse)
     without = baseline_errors(thin.records)
     chosen, words = choose(laws, without, thin.records)
+    left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
+    if left > WRONG:
+        words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
     rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
     return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options))

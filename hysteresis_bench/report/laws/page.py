@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table as Printed
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table, not_fitted
 from hysteresis_bench.report.shared.blocks import Bullets, Figures
@@ -46,9 +47,17 @@ def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> 
             ],
         ),
     ]
-    title = f"The law is {found.chosen}" if found.chosen else "No law beats a polynomial"
-    page = Page(title, f"Laws for {listed([file.stem for file in files], 6)}", sections, [found.words])
+    page = Page(_title(found), f"Laws for {listed([file.stem for file in files], 6)}", sections, [found.words])
     return page.write(folder / FILE)
+
+
+def _title(found: Comparison) -> str:
+    if not found.chosen:
+        return "No law beats a polynomial"
+    error = float(found.table.set_index("law").loc[found.chosen, "unseen"])
+    if error <= WRONG * found.floor:
+        return f"{found.chosen} follows these data"
+    return f"{found.chosen} comes nearest, at {error / found.floor:.2g} times the noise"
 
 
 def print_comparison(found: Comparison, console: Console) -> None:
