@@ -98,11 +98,12 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     import numpy as np
     import pandas as pd
 
-    from hysteresis_bench.control.feed_forward import feed_forward
+    from hysteresis_bench.control.feed_forward import INVERTIBLE, feed_forward
+    from hysteresis_bench.control.iterated_inverse import iterated_inverse
     from hysteresis_bench.control.trajectory import follow
     from hysteresis_bench.data.csv_files import write_table
 
-    forward = feed_forward(fitted)
+    forward = feed_forward(fitted) if fitted.model in INVERTIBLE else iterated_inverse(fitted)
     followed = follow(fitted, forward, path, np.inf if limit is None else limit)
     columns = {"time": followed.time, "input": followed.input, "output": followed.output}
     table = pd.DataFrame({f"{name} [{fitted.units[name]}]": values for name, values in columns.items()})

@@ -10,6 +10,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.feed_forward import FeedForward
+from hysteresis_bench.control.iterated_inverse import IteratedInverse
 from hysteresis_bench.data.data_files import read_columns, time_faults
 from hysteresis_bench.data.units import in_units
 from hysteresis_bench.errors import UserError
@@ -50,7 +51,7 @@ def read_trajectory(path: Path, units: Mapping[str, str]) -> Dataset:
     return known.map(lambda one: Record(one.time, one.output, one.output, one.name, units))
 
 
-def follow(fitted: FittedModel, forward: FeedForward, path: Path, limit: float) -> Followed:
+def follow(fitted: FittedModel, forward: FeedForward | IteratedInverse, path: Path, limit: float) -> Followed:
     """The input for the trajectory of a CSV, prepared as the fit's records were; limit : of the input, to either side.
 
     Raises UserError naming file, row and column.
