@@ -2,35 +2,39 @@
 
 from dataclasses import dataclass, replace
 
-from scipy.integrate import cumulative_trapezoid
+import numpy as np
 
 from hysteresis_bench import FitOptions, diagnose, fit, measure
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 
 
-def charge(time, voltage):
-    """The integral of the voltage over time from the first sample, (samples, swarm) like the voltage."""
-    return cumulative_trapezoid(voltage, time, axis=0, initial=0.0)
-
-
 @dataclass(frozen=True)
-class Leakage(Effect):
-    """A conducting path beside the actuator: y + conductance ∫ u dt, as in charge measurements."""
+class PressureSensitivity(Effect):
+    """The pressure around the actuator, a further column of the data, moves the output: y + coefficient (p - p_0)."""
 
     acts = "added"
-    family = "added disturbance"
-    parameters = (Parameter("conductance", -1.0, 1.0, "{output}/{input}/{time}", null=0.0),)
+    family = "change with time, path or temperature"
+    parameters = (Parameter("coefficient", -1.0, 1.0, "{output}/kPa", null=0.0),)
 
     def apply(self, inner, signal, p):
-        return inner(signal) + p.conductance * charge(signal.time, signal.input)
+        pressure = signal.columns["pressure"]
+        return inner(signal) + p.coefficient * (pressure - pressure[0])[:, None]
+
+    def inapplicable(self, records):
+        return "" if all("pressure" in record.columns for record in records) else "no column pressure"
+
+
+def under_pressure(record):
+    """The record with a pressure that wanders, and what that makes of the output."""
+    pressure = 101.0 + 0.05 * np.cumsum(np.random.default_rng(len(record.name)).standard_normal(record.time.size))
+    return replace(record, output=record.output + 0.2 * (pressure - pressure[0]), columns={"pressure": pressure})
 
 
 if __name__ == "__main__":
-    data = measure("hidden-effects", "slow", "fast", "nested", seed=1)
-    data = data.map(lambda record: replace(record, output=record.output + 0.3 * charge(record.time, record.input)))
-    for effects in ([], ["leakage"]):
-        result = fit(data, "bouc-wen", effects, options=FitOptions(budget=4000, seed=1))
+    data = measure("hidden-effects", "slow", "fast", "nested", seed=1).map(under_pressure)
+    for effects in ([], ["pressure-sensitivity"]):
+        result = fit(data, "bouc-wen", effects, options=FitOptions(seed=1))
         times = result.model.error["fitted"]["rmse"] / data.hidden["noise"]
-        print(f"{' and '.join(['bouc-wen', *effects]):24} leaves {times:.3g} times the noise")
+        print(f"{' and '.join(['bouc-wen', *effects]):34} leaves {times:.3g} times the noise")
     print(diagnose(data, "bouc-wen").headline)  # the diagnosis knows it too

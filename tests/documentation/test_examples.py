@@ -16,7 +16,10 @@ SAYS = {
     "fit_a_file.py": r"Two searches from other starts agree",
     "diagnose_a_file.py": r"effect-found .* The model lacks input-lag",
     "write_an_optimizer.py": r"halving-search +0\.0",
-    "write_an_effect.py": r"bouc-wen +leaves [45]\..*\nbouc-wen and leakage +leaves 1.*\nThe model lacks leakage:",
+    "write_an_effect.py": (
+        r"bouc-wen +leaves [0-9.]+ times.*\nbouc-wen and pressure-sensitivity +leaves 1.*\n"
+        r"The model lacks pressure-sensitivity:"
+    ),
 }
 """What each script must tell, as a pattern."""
 

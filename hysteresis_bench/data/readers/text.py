@@ -46,6 +46,8 @@ def read_text(path: Path, layout: Layout) -> Sheet:
     trailing = max(len(_cells(lines[index], mark, trim=False)) - len(_cells(lines[index], mark)) for index in head)
     cells = _table(path, lines, first, set(comments), mark, width=len(header) and len(header) + trailing)
     above = top.data - (top.header is not None) - (top.units is not None)
+    if samples := [head[at] + 1 for at in range(top.header or 0) if _numbers(rows[at], len(header))]:
+        raise UserError(str(path), f"row {samples[0]} holds samples above the header; put the header first.")
     if mark != ",":
         notes.append(f"{NAMES[mark]} between cells")
     if above:
@@ -166,3 +168,8 @@ def _decimal(path: Path, cells: pd.DataFrame, layout: Layout, *, unquoted: bool)
         return decimal_mark(everything)
     except Ambiguous as error:
         raise UserError(str(path), str(error)) from None
+
+
+def _numbers(cells: Sequence[str], count: int) -> bool:
+    """Whether these are the cells of a sample, as many as the header has, each a number."""
+    return len(cells) == count > 1 and all(looks_like_a_number(cell) for cell in cells)

@@ -18,6 +18,7 @@ CHAIN = [
     "transport-delay",
     "periodic-disturbance",
     "drift",
+    "leakage",
     "description",
     "bias",
     "record-drift",
