@@ -91,7 +91,7 @@ def test_where_all_is_linear_a_handful_of_simulations_is_enough():
     noise = rng.standard_normal(TIME.size)
     posed = of(Rays(), 1.0 - 2.0 * DRIVE + 6.0 * DRIVE**2 + noise)  # 6 lies outside the box
     best = found(posed)
-    assert best.evaluations < 100
+    assert best.evaluations < 200  # two rounds; how often a step at the optimum is tried again is rounding
     assert best.values[2] == pytest.approx(5.0)
     columns = np.column_stack([np.ones(TIME.size), DRIVE])
     expected = np.linalg.lstsq(columns, posed.records[0].measured - 5.0 * DRIVE**2, rcond=None)[0]
