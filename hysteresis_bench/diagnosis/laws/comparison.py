@@ -82,6 +82,9 @@ def compare(
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
     rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
+    held_out = table.set_index("law")["held_out"]
+    if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
+        words += " On what was held out it does worse than the polynomial: do not believe it there."
     return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options))
 
 
