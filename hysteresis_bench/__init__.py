@@ -154,9 +154,13 @@ def compare(
     options : seed, processes, and how the data are prepared
     Raises UserError telling every fault at once.
     """
-    from hysteresis_bench.diagnosis.laws.comparison import compare as compare_laws
+    from dataclasses import replace
 
-    return compare_laws(dataset, models, effects, options=options)
+    from hysteresis_bench.diagnosis.laws.comparison import compare as compare_laws
+    from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
+
+    asked = replace(options or DiagnosisOptions(), laws=tuple(models))
+    return compare_laws(dataset, Question("", tuple(effects), options=asked))
 
 
 def predict(model: FittedModel | Path | str, *files: Path | str, layout: Layout | None = None) -> Dataset:

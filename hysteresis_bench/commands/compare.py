@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from hysteresis_bench.commands.data.options import data_options, say_understood
+from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
@@ -20,13 +20,10 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
 @data_options
-@click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Registered models.")
+@models_option("Registered models.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act around every law; may be repeated.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
-@click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
-@click.option("--flip", is_flag=True, help="Change the sign of the input.")
-@click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
-@click.option("--settle", is_flag=True, help="Repeat closed loops before scoring.")
+@preparation_options
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--seed", type=int, default=0, show_default=True)
 @open_option
@@ -35,13 +32,10 @@ if TYPE_CHECKING:
 def compare(
     data: Sequence[Path],
     layout: Layout,
-    models: str,
+    models: Sequence[str],
     effects: Sequence[str],
     held_out: Sequence[str],
-    input_offset: float,
-    flip: bool,
-    skip: float,
-    settle: bool,
+    prepared: dict[str, Any],
     jobs: int | None,
     seed: int,
     open_page: bool,
@@ -60,11 +54,10 @@ def compare(
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
     say_understood(console, dataset)
     say_notes(console, dataset.notes)
-    names = () if models == "all" else tuple(name.strip() for name in models.split(","))
     kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
     with told_when_stopped("compare", lambda: kept, anew), steps_told("compare") as on_step:
-        options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, on_step=on_step)
-        found = compare_laws(dataset, names, effects, options=options)
+        options = DiagnosisOptions(seed, jobs, **prepared, on_step=on_step)
+        found = compare_laws(dataset, models, effects, options=options)
     print_comparison(found, console)
     page = write_comparison(folder, found, data)
     say_page(console, page, open_page)

@@ -4,19 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.data.parameters import (
-    bounds_option,
-    fix_option,
-    pairs,
-    setting_option,
-    settings_of,
-    values,
-)
+from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
+from hysteresis_bench.commands.data.parameters import model_options
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option
@@ -36,16 +29,11 @@ SHOWN = 8
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
 @data_options
 @click.option("--model", default="", help="A registered model; default: the law is found from the data.")
-@click.option("--models", default="all", show_default=True, metavar="A,B,...", help="Where the law is sought.")
+@models_option("Where the law is sought.")
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
-@setting_option
-@bounds_option
-@fix_option
-@click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
-@click.option("--flip", is_flag=True, help="Change the sign of the input.")
-@click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
-@click.option("--settle", is_flag=True, help="Repeat closed loops before scoring.")
+@model_options
+@preparation_options
 @click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
@@ -57,16 +45,11 @@ def diagnose(
     data: Sequence[Path],
     layout: Layout,
     model: str,
-    models: str,
+    models: Sequence[str],
     held_out: Sequence[str],
     effects: Sequence[str],
-    settings: Sequence[str],
-    bounds: Sequence[str],
-    fixed: Sequence[str],
-    input_offset: float,
-    flip: bool,
-    skip: float,
-    settle: bool,
+    asked: dict[str, Any],
+    prepared: dict[str, Any],
     accept_terms: bool,
     jobs: int | None,
     out: Path | None,
@@ -91,11 +74,9 @@ def diagnose(
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
-    laws = () if models == "all" else tuple(name.strip() for name in models.split(","))
-    asked = {"settings": settings_of(settings), "bounds": pairs(bounds), "fixed": values(fixed)}
     kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
     with told_when_stopped("diagnose", lambda: kept, anew), steps_told("diagnose") as on_step:
-        options = DiagnosisOptions(seed, jobs, input_offset, flip, skip, settle, accept_terms, laws, on_step)
+        options = DiagnosisOptions(seed, jobs, **prepared, accept_terms=accept_terms, laws=models, on_step=on_step)
         found = find(dataset, model, effects, **asked, options=options)
     path = write_diagnosis(folder, found, data)
     page = write_diagnosis_page(path.parent)

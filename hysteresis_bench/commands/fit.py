@@ -5,19 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.data.parameters import (
-    bounds_option,
-    fix_option,
-    pairs,
-    setting_option,
-    settings_of,
-    values,
-)
+from hysteresis_bench.commands.data.options import data_options, preparation_options, say_understood
+from hysteresis_bench.commands.data.parameters import model_options
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
@@ -32,14 +25,9 @@ if TYPE_CHECKING:
 @data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
-@setting_option
-@bounds_option
-@fix_option
+@model_options
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
-@click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input.")
-@click.option("--flip", is_flag=True, help="Change the sign of the input.")
-@click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored.")
-@click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring.")
+@preparation_options
 @click.option("--seed", type=int, default=0, show_default=True)
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
@@ -56,14 +44,9 @@ def fit(
     layout: Layout,
     model: str,
     effects: Sequence[str],
-    settings: Sequence[str],
-    bounds: Sequence[str],
-    fixed: Sequence[str],
+    asked: dict[str, Any],
     held_out: Sequence[str],
-    input_offset: float,
-    flip: bool,
-    skip: float,
-    settle: bool,
+    prepared: dict[str, Any],
     seed: int,
     optimizer: str | None,
     budget: int | None,
@@ -90,12 +73,8 @@ def fit(
         optimizer=optimizer or default.optimizer,
         budget=budget or default.budget,
         seed=seed,
-        input_offset=input_offset,
-        flip=flip,
-        skip=skip,
-        settle=settle,
+        **prepared,
     )
-    asked = {"settings": settings_of(settings), "bounds": pairs(bounds), "fixed": values(fixed)}
     kept = f"nothing was written to {folder}"
     with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
         options = replace(options, on_step=on_step)

@@ -15,7 +15,7 @@ from hysteresis_bench.fit.checks.asked import asked_faults, parameter_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.progress import OnStep, quiet
-from hysteresis_bench.signals import Dataset
+from hysteresis_bench.signals import Dataset, Record
 
 FEWEST_SAMPLES = 40
 """Scored samples below which a fitted record tells too little of its noise to be diagnosed."""
@@ -47,9 +47,10 @@ class DiagnosisOptions:
 
 @dataclass(frozen=True)
 class Question:
-    """What does this model lack on the fitted records?
+    """What does this model lack on the fitted records? Or, where no model is named, which law do they follow?
 
-    model, settings : a registered model;  effects : known to act, around the model from the beginning
+    model, settings : a registered model, "" where the law is sought among `options.laws`
+    effects : known to act, around the model from the beginning
     bounds : replaces parts of the box that follows from the records;  fixed : parameters that are known
     """
 
@@ -83,12 +84,19 @@ class Question:
             reasons = {name: effect.inapplicable(dataset.records) for name, effect in known}
             faults += [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]
         faults += open_loops(dataset.records) if self.options.settle else []
-        for record in dataset.fitted:
-            if np.ptp(record.measured) == 0:
-                faults.append(f"record {record.name}: the output is constant; there is nothing to diagnose.")
-            elif record.measured.size < FEWEST_SAMPLES:
-                faults.append(
-                    f"record {record.name}: {record.measured.size} samples are too few; {FEWEST_SAMPLES} are needed."
-                )
+        faults += record_faults(dataset.fitted, "diagnose")
         if faults:
             raise UserError("diagnose", faults)
+
+
+def record_faults(records: Sequence[Record], purpose: str) -> list[str]:
+    """A sentence on every record that tells too little; purpose : a verb, what nothing is left to do with it."""
+    faults = []
+    for record in records:
+        if np.ptp(record.measured) == 0:
+            faults.append(f"record {record.name}: the output is constant; there is nothing to {purpose}.")
+        elif record.measured.size < FEWEST_SAMPLES:
+            faults.append(
+                f"record {record.name}: {record.measured.size} samples are too few; {FEWEST_SAMPLES} are needed."
+            )
+    return faults

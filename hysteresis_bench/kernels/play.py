@@ -18,6 +18,16 @@ def played(u, radius, p):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
+def centred(u: Array, plays: int, swarm: int) -> Array:
+    """Plays that begin in the middle of their dead bands: float64[plays, swarm], the first input; u as in `play`."""
+    state = np.empty((plays, swarm))
+    for k in range(plays):
+        for j in range(swarm):
+            state[k, j] = u[0, j if u.shape[1] > 1 else 0]
+    return state
+
+
+@njit(cache=True, error_model="numpy")
 def play(u: Array, radius: Array) -> Array:
     """Play (backlash) operator: the output follows the input with a dead band.
 

@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.play import played
+from hysteresis_bench.kernels.play import centred, played
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -25,12 +25,9 @@ def play_bank(u: Array, radii: Array, coefficients: Array) -> Array:
     """
     samples, columns = u.shape
     plays, powers, swarm = coefficients.shape
-    state = np.empty((plays, swarm))
+    state = centred(u, plays, swarm)
     value = np.empty(swarm)
     y = np.zeros((samples, swarm))
-    for k in range(plays):
-        for j in range(swarm):
-            state[k, j] = u[0, j if columns > 1 else 0]
     for i in range(samples):
         for k in range(plays):
             for j in range(swarm):

@@ -7,7 +7,7 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.elementary import exponential
-from hysteresis_bench.kernels.play import played
+from hysteresis_bench.kernels.play import centred, played
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -24,11 +24,8 @@ def play_tanh(u: Array, heights: Array, radii: Array, centres: Array, widths: Ar
     """
     samples, columns = u.shape
     populations, swarm = heights.shape
-    state = np.empty((populations, swarm))
+    state = centred(u, populations, swarm)
     y = np.zeros((samples, swarm))
-    for k in range(populations):
-        for j in range(swarm):
-            state[k, j] = u[0, j if columns > 1 else 0]
     for i in range(samples):
         for k in range(populations):
             for j in range(swarm):

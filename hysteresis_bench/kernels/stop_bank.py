@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.play import played
+from hysteresis_bench.kernels.play import centred, played
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -26,11 +26,8 @@ def stop_bank(u: Array, slope: Array, limits: Array, stiffnesses: Array, gap: Ar
     """
     samples, columns = u.shape
     elements, swarm = stiffnesses.shape
-    position = np.empty((elements, swarm))
+    position = centred(u, elements, swarm)
     force = np.empty((samples, swarm))
-    for k in range(elements):
-        for j in range(swarm):
-            position[k, j] = u[0, j if columns > 1 else 0]
     for i in range(samples):
         for j in range(swarm):
             force[i, j] = slope[j] * (u[i, j] if columns > 1 else u[i, 0])

@@ -150,3 +150,10 @@ def test_a_setting_of_the_model_is_taken_from_the_command_line(tmp_path):
     said = CliRunner().invoke(main, [*asked, "--set", "plyas=3", "--set", "plyas=4"])
     assert said.exit_code == 2
     assert "given twice" in said.output
+
+
+def test_an_effect_that_a_law_has_no_room_for_leaves_that_law_out():
+    found = compare(Dataset(records(BOUC_WEN)), ("bouc-wen", "dahl"), ("eddy-current",), options=ONE)
+    reasons = found.table.set_index("law")["reason"]
+    assert reasons["bouc-wen"] == ""
+    assert "no room for eddy-current" in reasons["dahl"]

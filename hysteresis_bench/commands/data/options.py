@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
@@ -24,20 +24,59 @@ OPTIONS = (
 )
 NAMES = ("time", "input", "output", "rate", "delimiter", "decimal", "sheet")
 
+PREPARATION = (
+    click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input."),
+    click.option("--flip", is_flag=True, help="Change the sign of the input."),
+    click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored."),
+    click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring."),
+)
+PREPARED = ("input_offset", "flip", "skip", "settle")
 
-def data_options(command: Callable[..., Any]) -> Callable[..., Any]:
-    """The command with these options; it gets them as `layout`."""
+Command = Callable[..., Any]
 
-    @wraps(command)
-    def packed(**given: Any) -> Any:
-        from hysteresis_bench.data.layout import Layout
 
-        layout = Layout(**{name: given.pop(name) for name in NAMES})
-        return command(layout=layout, **given)
+def packing(
+    options: Sequence[Callable[[Command], Command]], names: Sequence[str], into: str, pack: Callable[..., Any]
+) -> Callable[[Command], Command]:
+    """A decorator that gives a command these options, and hands it what `pack` makes of them as one argument.
 
-    for option in reversed(OPTIONS):
-        packed = option(packed)
-    return packed
+    names : of the options' values, as `pack` takes them;  into : the command's argument
+    """
+
+    def decorated(command: Command) -> Command:
+        @wraps(command)
+        def packed(**given: Any) -> Any:
+            own = {name: given.pop(name) for name in names}
+            return command(**{into: pack(**own)}, **given)
+
+        offered: Command = packed
+        for option in reversed(options):
+            offered = option(offered)
+        return offered
+
+    return decorated
+
+
+def _layout(**given: Any) -> Any:
+    from hysteresis_bench.data.layout import Layout
+
+    return Layout(**given)
+
+
+data_options = packing(OPTIONS, NAMES, "layout", _layout)
+"""How files are read, as `layout`."""
+
+preparation_options = packing(PREPARATION, PREPARED, "prepared", dict)
+"""What is done to every record, as `prepared`: fields of FitOptions and of DiagnosisOptions."""
+
+
+def models_option(told: str) -> Callable[[Command], Command]:
+    """`--models A,B,...` as `models`: names, none of them for all.  told : its help"""
+
+    def names(context: click.Context, option: click.Parameter, text: str) -> tuple[str, ...]:
+        return () if text == "all" else tuple(name.strip() for name in text.split(","))
+
+    return click.option("--models", default="all", show_default=True, metavar="A,B,...", help=told, callback=names)
 
 
 def say_understood(console: Console, dataset: Dataset) -> None:

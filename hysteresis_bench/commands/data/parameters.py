@@ -1,4 +1,4 @@
-"""Bounds and known values of parameters, as they are written on a command line."""
+"""Settings of a model, bounds and known values of its parameters, as they are written on a command line."""
 
 from __future__ import annotations
 
@@ -7,18 +7,29 @@ from typing import Any, TypeVar
 
 import click
 
+from hysteresis_bench.commands.data.options import packing
 from hysteresis_bench.errors import UserError
 
 Value = TypeVar("Value")
 
-bounds_option = click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter.")
-setting_option = click.option(
-    "--set", "settings", multiple=True, metavar="NAME=VALUE", help="A setting of the model, such as plays=20."
+OPTIONS = (
+    click.option(
+        "--set", "settings", multiple=True, metavar="NAME=VALUE", help="A setting of the model, such as plays=20."
+    ),
+    click.option("--bounds", multiple=True, metavar="P=LO:HI", help="Search box of a parameter."),
+    click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known."),
 )
-fix_option = click.option("--fix", "fixed", multiple=True, metavar="P=VALUE", help="A parameter that is known.")
 
 
-def pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
+def _asked(settings: Sequence[str], bounds: Sequence[str], fixed: Sequence[str]) -> dict[str, Any]:
+    return {"settings": _settings(settings), "bounds": _pairs(bounds), "fixed": _values(fixed)}
+
+
+model_options = packing(OPTIONS, ("settings", "bounds", "fixed"), "asked", _asked)
+"""What is asked of a model, as `asked`: arguments of `fit` and of `diagnose`."""
+
+
+def _pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
     """P=LO:HI ..."""
 
     def interval(text: str) -> tuple[float, float]:
@@ -28,12 +39,12 @@ def pairs(texts: Sequence[str]) -> dict[str, tuple[float, float]]:
     return _by_name(texts, interval, "--bounds", "PARAMETER=LOW:HIGH, such as a=0.1:10")
 
 
-def values(texts: Sequence[str]) -> dict[str, float]:
+def _values(texts: Sequence[str]) -> dict[str, float]:
     """P=VALUE ..."""
     return _by_name(texts, float, "--fix", "PARAMETER=VALUE, such as n=1")
 
 
-def settings_of(texts: Sequence[str]) -> dict[str, Any]:
+def _settings(texts: Sequence[str]) -> dict[str, Any]:
     """NAME=VALUE ..., values as in a study file: a number, true or false, or a word."""
     return _by_name(texts, _setting, "--set", "NAME=VALUE, such as plays=20")
 

@@ -75,7 +75,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         warnings=(*dataset.notes, *warnings(outcome), *_open(after, prepared)),
         units=dataset.units,
         given_up=found.given_up,
-        unseen=unseen_rmse(found.thin, found.final) if len(found.thin.stack.records) > 1 else found.final.cv_rmse,
+        unseen=unseen_rmse(found.thin, found.final),
     )
 
 

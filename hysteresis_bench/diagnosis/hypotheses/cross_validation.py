@@ -24,6 +24,9 @@ BLOCKS = 48
 ITERATIONS = 4
 """From the fit to all samples to that of three quarters of them is a small step."""
 
+FURTHER = 15
+"""A fit without one whole record is further away than one without a few blocks."""
+
 CLEAR = 2.0
 """Standard errors by which one system must be better."""
 
@@ -40,6 +43,13 @@ def left_out_errors(problem: Problem, point: Array, blocks: Blocks, iterations: 
     starts = np.repeat(point[:, None], blocks.folds, axis=1)
     points, _ = descend(problem, starts, blocks.training, iterations=iterations)
     return errors(problem, points)[np.arange(blocks.fold.size), blocks.fold]
+
+
+def unseen_errors(problem: Problem, point: Array) -> Array:
+    """Errors (scored samples,) of every record by a fit to the others; point : (dimension,) in the unit box."""
+    sizes = [record.measured.size for record in problem.records]
+    number = np.repeat(np.arange(len(sizes)), sizes)
+    return left_out_errors(problem, point, Blocks(number, number, len(sizes)), FURTHER)
 
 
 def advantage(ours: Array, theirs: Array, blocks: Blocks) -> float:

@@ -13,7 +13,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.blocks import Blocks
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import cut, left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import cut, left_out_errors, unseen_errors
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.starts import grid
@@ -116,6 +116,13 @@ class Fitter:
         problem = self.stack.problem(hypothesis.names)
         point, _ = descend(problem, point_of(problem, hypothesis.values)[:, None], iterations=LAST)
         return problem.space.from_unit(point)[:, 0]
+
+    def unseen(self, hypothesis: Hypothesis) -> Array:
+        """Errors (scored samples,) of every record by a fit to the others; of a lone record those of its blocks."""
+        if len(self.stack.records) == 1:
+            return hypothesis.left_out
+        problem = self.stack.problem(hypothesis.names)
+        return unseen_errors(problem, point_of(problem, hypothesis.values))
 
     def errors(self, names: Collection[str], values: Array) -> Array:
         """Measured minus simulated (scored samples,); values : (dimension,), in units."""

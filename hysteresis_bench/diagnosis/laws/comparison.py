@@ -19,9 +19,9 @@ from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
 from hysteresis_bench.diagnosis.preparation import thinned
-from hysteresis_bench.diagnosis.question import FEWEST_SAMPLES, DiagnosisOptions
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.errors import UserError, nearest
-from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
@@ -54,24 +54,16 @@ class Comparison:
 
 
 @economical()
-def compare(
-    dataset: Dataset,
-    models: Sequence[str] = (),
-    effects: Sequence[str] = (),
-    *,
-    options: DiagnosisOptions | None = None,
-) -> Comparison:
-    """Fit every law to the fitted records, and predict what it did not see.
+def compare(dataset: Dataset, question: Question) -> Comparison:
+    """Fit every law that the question's options name to the fitted records, and predict what it did not see.
 
-    models : by name, all registered ones where empty;  effects : known to act around every law
     Held-out records are predicted and never choose. Raises UserError telling every fault at once.
     """
-    options = options or DiagnosisOptions()
-    seen = _prepared(dataset, models, effects, options)
-    names = tuple(models) or registry.names("models")
+    options, seen = question.options, _prepared(dataset, question)
+    names = tuple(options.laws) or registry.names("models")
     views = views_of(seen.fitted)
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
-    thin = Laws(thinned(views), seen, tuple(effects), options.seed)
+    thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](thin, jobs, options.on_step) as workers:
         laws = sorted(workers.map([("law", name) for name in names]), key=lambda law: law.rmse)
@@ -88,25 +80,16 @@ def compare(
     return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options))
 
 
-def _prepared(dataset: Dataset, models: Sequence[str], effects: Sequence[str], options: DiagnosisOptions) -> Dataset:
-    preparation = Preparation(options.input_offset, options.flip, options.skip)
-    known = registry.names("models")
+def _prepared(dataset: Dataset, question: Question) -> Dataset:
+    models, known, settle = question.options.laws, registry.names("models"), question.options.settle
     faults = [f'no model "{name}". {nearest(name, known)}' for name in models if name not in known]
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
-    faults += [fault for name in effects for fault in registry.faults("effects", name, {})]
-    faults += preparation.faults(dataset.records)
-    faults += open_loops(dataset.records) if options.settle and not faults else []
-    if faults:
+    faults += around_faults("", question.effects) + question.preparation.faults(dataset.records)
+    faults += open_loops(dataset.records) if settle and not faults else []
+    seen = dataset if faults else dataset.map(question.preparation)
+    if faults := faults or record_faults(seen.fitted, "compare"):
         raise UserError("compare", faults)
-    seen = dataset.map(preparation)
-    for record in seen.fitted:
-        if np.ptp(record.measured) == 0:
-            faults.append(f"record {record.name}: the output is constant; there is nothing to compare.")
-        elif record.measured.size < FEWEST_SAMPLES:
-            faults.append(f"record {record.name}: {record.measured.size} samples are too few; {FEWEST_SAMPLES} needed.")
-    if faults:
-        raise UserError("compare", faults)
-    return seen.map(lambda record: record.settled(PASSES)) if options.settle else seen
+    return seen.map(lambda record: record.settled(PASSES)) if settle else seen
 
 
 def _notes(seen: Dataset, options: DiagnosisOptions) -> tuple[str, ...]:

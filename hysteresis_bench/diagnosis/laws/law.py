@@ -10,17 +10,12 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.evidence.blocks import Blocks
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import left_out_errors
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
-from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.signals import Dataset, Record
-
-ITERATIONS = 15
-"""Of a fit without one whole record, from the fit to all of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +62,8 @@ class Laws:
     def law(self, name: str) -> Law:
         """Fitted, or with the reason why not."""
         begun = time.process_time()
+        if faults := around_faults(name, self.effects):
+            return Law(name, " ".join(faults))
         fitter = self.fitter(name, self.records)
         if reasons := self._reasons(fitter):
             return Law(name, " ".join(reasons))
@@ -75,12 +72,7 @@ class Laws:
         count = problem.space.dimension
         if found.rmse >= 0.999 * _spread(self.records):
             return Law(name, "it follows these records no better than a constant.", parameters=count)
-        unseen = found.left_out
-        if len(self.records) > 1:
-            sizes = [record.measured.size for record in self.records]
-            number = np.repeat(np.arange(len(sizes)), sizes)
-            folds = Blocks(number, number, len(sizes))
-            unseen = left_out_errors(problem, point_of(problem, found.values), folds, ITERATIONS)
+        unseen = fitter.unseen(found)
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
         fitted, held_out = (

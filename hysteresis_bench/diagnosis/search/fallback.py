@@ -12,14 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.evidence.blocks import Blocks
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import left_out_errors
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.fit.least_squares import point_of
-
-ITERATIONS = 15
-"""A fit without one whole record is further away than one without a few blocks."""
 
 
 @dataclass(frozen=True)
@@ -54,10 +48,5 @@ def fall_back(fitter: Fitter, base: Hypothesis, order: Grown) -> Fallback | None
 
 
 def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
-    """RMSE over all fitted records, each predicted by a fit to the others."""
-    sizes = [record.measured.size for record in fitter.stack.records]
-    number = np.repeat(np.arange(len(sizes)), sizes)
-    problem = fitter.stack.problem(hypothesis.names)
-    point = point_of(problem, hypothesis.values)
-    left = left_out_errors(problem, point, Blocks(number, number, len(sizes)), ITERATIONS)
-    return float(np.sqrt(np.mean(left**2)))
+    """RMSE over all fitted records, each predicted by a fit to the others; of a lone record, over its blocks."""
+    return float(np.sqrt(np.mean(fitter.unseen(hypothesis) ** 2)))

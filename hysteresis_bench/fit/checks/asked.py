@@ -13,7 +13,12 @@ from hysteresis_bench.parameters import Parameter
 
 def asked_faults(model: str, settings: Mapping[str, Any], effects: Sequence[str]) -> list[str]:
     """A sentence on every fault of a model's name, its settings, and the effects around it."""
-    faults = registry.faults("models", model, settings)
+    return registry.faults("models", model, settings) + around_faults(model, effects)
+
+
+def around_faults(model: str, effects: Sequence[str]) -> list[str]:
+    """A sentence on every fault of the effects around a model; model : "" for whichever."""
+    faults = []
     for effect in dict.fromkeys(effects):
         faults += registry.effect_faults(effect, model)
         if effects.count(effect) > 1:
