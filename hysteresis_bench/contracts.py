@@ -138,6 +138,9 @@ class Effect(ABC):
     """Parameters in which the output is affine, jointly with what is wrapped: amplitudes of what is merely added."""
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
     """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = ()
+    """Other formulas that the field has for the same effect, which the effect's own cannot reproduce. What they change
+    vanishes with the strength."""
 
     @abstractmethod
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -15,6 +15,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, HiddenForm, Hiding, Model, Response, Rig
 from hysteresis_bench.diagnosis.hypotheses.systems import place
+from hysteresis_bench.diagnosis_study.imperfections import IMPERFECTIONS, noisy
 from hysteresis_bench.signals import Dataset, Record, Signal
 
 DURATION, SAMPLES, FINER = 3.0, 800, 8
@@ -67,6 +68,8 @@ class HiddenEffects(Rig):
     hide : how many effects are hidden where none is named;  among : which ones may be; empty: all that can be
     draw : which parameters, strengths and (where none is named) effects; the same in every experiment
     noise : standard deviation, share of the output's range; 0 draws it between 0.002 and 0.01
+    other : hide by one of the other formulas of the field that an effect declares, drawn, where it has some
+    imperfect : what is wrong with the records beside white noise, of `IMPERFECTIONS`; empty: nothing
     """
 
     experiments: ClassVar[dict[str, str]] = {
@@ -84,6 +87,8 @@ class HiddenEffects(Rig):
     among: tuple[str, ...] = ()
     draw: int = 0
     noise: float = 0.0
+    other: bool = False
+    imperfect: str = ""
 
     def __post_init__(self) -> None:
         models = [
@@ -99,6 +104,8 @@ class HiddenEffects(Rig):
             raise ValueError(f"hide = {self.hide} must be between 0 and {len(self._pool)}")
         if self.noise < 0.0:
             raise ValueError(f"noise = {self.noise} must not be negative")
+        if self.imperfect and self.imperfect not in IMPERFECTIONS:
+            raise ValueError(f"imperfect = {self.imperfect!r} is not known; there are: {', '.join(IMPERFECTIONS)}")
 
     def measure(self, experiment: str, rng: Generator) -> Dataset:
         """One record with the column temperature. Raises ValueError for an unknown experiment."""
@@ -107,9 +114,11 @@ class HiddenEffects(Rig):
         time, drive, temperature = self._setting(experiment)
         output = self._response(experiment, self._strengths)
         handed = slice(None, None, FINER)
-        measured = output[handed] + self._noise_rms * rng.standard_normal(SAMPLES)
         units = {"time": "s", "input": "1", "output": "1", "temperature": "degC"}
-        record = Record(time[handed], drive[handed], measured, experiment, units, {"temperature": temperature[handed]})
+        record = Record(
+            time[handed], drive[handed], output[handed], experiment, units, {"temperature": temperature[handed]}
+        )
+        record = IMPERFECTIONS.get(self.imperfect, noisy)(record, self._noise_rms, rng)
         return Dataset((record,), hidden={**dict.fromkeys(self.names, True), "noise": self._noise_rms})
 
     @cached_property
@@ -192,8 +201,14 @@ class HiddenEffects(Rig):
         for name, strength in strengths.items():
             free = tuple(self._stream(name, "more").random(3).tolist())
             given = Hiding(strength, free, time, drive, temperature, float(time[1]), DURATION, FASTEST, amplitude, top)
-            hidden[name] = (registry.effect(name).hidden_forms[0], given)
+            hidden[name] = (self._form(name), given)
         return hiding(bare, hidden)(drive)
+
+    def _form(self, name: str) -> HiddenForm:
+        effect = registry.effect(name)
+        if not (self.other and effect.other_forms):
+            return effect.hidden_forms[0]
+        return effect.other_forms[int(self._stream(name, "form").integers(len(effect.other_forms)))]
 
     @cached_property
     def _values(self) -> Any:

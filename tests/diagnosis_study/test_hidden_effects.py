@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import tomllib
 from collections import namedtuple
 from pathlib import Path
@@ -14,6 +15,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Hiding
 from hysteresis_bench.diagnosis_study.hidden_effects import CALIBRATED, HiddenEffects, can_be_hidden, can_make_data
+from hysteresis_bench.diagnosis_study.imperfections import IMPERFECTIONS
 from hysteresis_bench.signals import Signal
 from hysteresis_plugins.effects.rayleigh_hysteresis import plays
 from hysteresis_plugins.models._eddy_current_hidden import relaxed
@@ -61,7 +63,8 @@ def test_every_formula_makes_data_that_grow_with_the_strength(model):
     top = float(response(np.linspace(0.0, np.max(drive), TIME.size))[-1])
     temperature = 22.0 + 9.0 * np.sin(2.0 * np.pi * TIME / 3.9)
     for name in can_be_hidden(registry.build("models", model)):
-        for form in registry.effect(name).hidden_forms:
+        effect = registry.effect(name)
+        for form in (*effect.hidden_forms, *effect.other_forms):
             changes = []
             for strength in (0.3, 1.0):
                 given = Hiding(
@@ -156,3 +159,37 @@ def test_eddy_currents_around_a_falling_law_are_refused():
     coefficient = 0.05 * np.ptp(drive) / np.ptp(response(drive))
     with pytest.raises(ValueError, match="falls while its input rises"):
         relaxed(response, drive, coefficient, STEP)
+
+
+def test_other_formulas_are_other_than_the_effect_s_own():
+    response, drive = bare("bouc-wen")
+    given = Hiding(0.5, (0.7, 0.2, 0.4), TIME, drive, 22.0 + 9.0 * np.sin(1.6 * TIME), STEP, 3.0, 4.0, 4.0, 3.0)
+    for name in can_be_hidden(registry.build("models", "bouc-wen")):
+        made = [form(response, drive, given) for form in registry.effect(name).other_forms]
+        own = registry.effect(name).hidden_forms[0](response, drive, given)
+        for one, other in itertools.combinations([own, *made], 2):
+            assert rms(one - other) > 3e-4 * np.ptp(own), name
+
+
+def test_other_formulas_are_drawn_and_leave_the_others_as_they_are():
+    drawn = {HiddenEffects(effects=("creep",), draw=draw, other=True)._form("creep") for draw in range(8)}
+    assert drawn == set(registry.effect("creep").other_forms)
+    plain, other = (HiddenEffects(effects=("eddy-current",), draw=1, other=one) for one in (False, True))
+    assert plain._form("eddy-current") is other._form("eddy-current")
+
+
+@pytest.mark.parametrize("name", IMPERFECTIONS)
+def test_an_imperfect_record_is_the_clean_one_with_one_fault(name):
+    clean = HiddenEffects(draw=2).measure("slow", np.random.default_rng(1)).records[0]
+    (record,) = HiddenEffects(draw=2, imperfect=name).measure("slow", np.random.default_rng(1)).records
+    again = HiddenEffects(draw=2, imperfect=name).measure("slow", np.random.default_rng(1)).records[0]
+    np.testing.assert_array_equal(record.output, again.output)
+    assert np.isin(record.time, clean.time).all()
+    assert record.name == clean.name
+    differs = record.time.size < clean.time.size or np.any(record.output != clean.output)
+    assert differs or np.any(record.input != clean.input)
+
+
+def test_an_unknown_imperfection_is_refused_with_those_that_are_known():
+    with pytest.raises(ValueError, match="imperfect = 'dusty' is not known; there are: coloured, quantised"):
+        HiddenEffects(imperfect="dusty")

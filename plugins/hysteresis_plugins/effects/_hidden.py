@@ -34,6 +34,18 @@ def euler_lag(x: Array, constant: float, step: float) -> Array:
     return out
 
 
+def unequal_lag(x: Array, rising: float, falling: float, step: float) -> Array:
+    """First order, with one time constant where the answer rises and another one where it falls."""
+    up, down, state = step / max(rising, step), step / max(falling, step), float(x[0])
+    out = np.empty_like(x)
+    out[0] = state
+    for k in range(1, x.size):
+        behind = 0.5 * (x[k] + x[k - 1]) - state
+        state += (up if behind > 0.0 else down) * behind
+        out[k] = state
+    return out
+
+
 def tustin_lag(x: Array, constant: float, step: float) -> Array:
     """First order, Tustin's rule."""
     return tustin(x, [1.0], [constant, 1.0], step)

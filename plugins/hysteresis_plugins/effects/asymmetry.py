@@ -25,6 +25,17 @@ def _bent(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u * (1.0 + bend * u / hiding.amplitude))
 
 
+def _exponential(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A diode's characteristic: every order, odd ones too."""
+    bend = 1.2 * hiding.strength * np.sign(hiding.random[0] - 0.5)
+    return inner(np.expm1(bend * u / hiding.amplitude) * hiding.amplitude / bend)
+
+
+def _two_slopes(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """One gain above zero, another one below."""
+    return inner(u * (1.0 + 0.4 * hiding.strength * np.sign(u)))
+
+
 @dataclass(frozen=True)
 class Asymmetry(Effect):
     """An even nonlinearity of the input: its two signs do not act alike.
@@ -47,6 +58,7 @@ class Asymmetry(Effect):
         ),
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_signed, _bent)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_exponential, _two_slopes)
     parameters = (Parameter("curvature", -0.45, 0.45, "1/{input}", null=0.0, meaning="of the input's action"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

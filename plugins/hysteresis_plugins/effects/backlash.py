@@ -38,6 +38,26 @@ def _pushed(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(out)
 
 
+def _compliant(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Two thirds of the motion cross a clearance, the rest goes through a spring beside it."""
+    half = 0.35 * hiding.strength * hiding.amplitude
+    return inner((u + 2.0 * _between_walls(u, half)) / 3.0)
+
+
+def _worn_teeth(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Clearances of three widths beside each other."""
+    half = 0.3 * hiding.strength * hiding.amplitude
+    return inner(sum(_between_walls(u, half * width) for width in (0.4, 1.0, 1.6)) / 3.0)
+
+
+def _between_walls(u: Array, half: float) -> Array:
+    out, body = np.empty_like(u), float(u[0])
+    for k, middle in enumerate(u.tolist()):
+        body = float(np.clip(body, middle - half, middle + half))
+        out[k] = body
+    return out
+
+
 @dataclass(frozen=True)
 class Backlash(Effect):
     """A dead band on the input, such as a gear's clearance: after a reversal it first has to be crossed.
@@ -56,6 +76,7 @@ class Backlash(Effect):
         "input-lag": "at one amplitude and frequency both shift the loop after a reversal",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_clipped, _pushed)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_compliant, _worn_teeth)
     parameters = (Parameter("half_width", 0.0, 1.0, "{input}", null=0.0, meaning="of the dead band"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -29,6 +29,26 @@ def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
     return y + sum(tustin_lag(late, mean * 10.0**decade, hiding.step) - late for decade in (-0.6, 0.0, 0.6))
 
 
+def _power_law(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Relaxations over four decades whose weights fall with the time constant, as of a fractional element."""
+    y, times = inner(u), 0.05 / hiding.fastest * 10.0 ** np.linspace(0.0, 3.0, 9)
+    weights = times**-0.25 / np.sum(times**-0.25)
+    late = 0.5 * hiding.strength
+    relaxed = sum(w * euler_lag(y, float(tau), hiding.step) for w, tau in zip(weights, times, strict=True))
+    return (1.0 - late) * y + late * relaxed
+
+
+def _stretched_exponential(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Kohlrausch's step response 1 - exp(-sqrt(t / tau)), by convolution with the increments."""
+    from scipy.signal import fftconvolve
+
+    y, late = inner(u), 0.5 * hiding.strength
+    tau = 0.3 / hiding.fastest * 8.0 ** hiding.random[0]
+    behind = np.exp(-np.sqrt((hiding.time - hiding.time[0]) / tau))
+    lag: Array = fftconvolve(np.diff(y, prepend=y[0]), behind)[: y.size]
+    return y - late * lag
+
+
 @dataclass(frozen=True)
 class Creep(Effect):
     """A share of the response arrives late, through relaxations spread evenly over decades of time.
@@ -57,6 +77,7 @@ class Creep(Effect):
         "transport-delay": "both let the response arrive late; they differ in how it depends on speed",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_power_law, _stretched_exponential)
     parameters = (
         Parameter("share", 0.0, 0.9, null=0.0, meaning="of the relaxed response that arrives late"),
         Parameter("time_constant", 1e-3, 1e2, "{time}", "log", meaning="geometric mean of the relaxations'"),

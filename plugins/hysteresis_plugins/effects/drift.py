@@ -6,6 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
+import numpy as np
+
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
@@ -20,6 +22,17 @@ def _steady(inner: Response, u: Array, hiding: Hiding) -> Array:
 
 def _faster(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u) + (0.15 + 0.2 * hiding.strength) * hiding.top * hiding.time / hiding.duration
+
+
+def _levelling(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A warm-up: it levels off."""
+    passed = hiding.time / hiding.duration
+    return inner(u) + 0.7 * hiding.strength * hiding.top * -np.expm1(-3.0 * passed)
+
+
+def _diffusive(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """With the square root of time."""
+    return inner(u) + 0.7 * hiding.strength * hiding.top * np.sqrt(hiding.time / hiding.duration)
 
 
 @dataclass(frozen=True)
@@ -39,6 +52,7 @@ class Drift(Effect):
         "temperature-sensitivity": "the temperature changed steadily with time, so that either may move the zero",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_steady, _faster)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_levelling, _diffusive)
     parameters = (Parameter("rate", -1.0, 1.0, "{output}/{time}", null=0.0, meaning="of the output's zero"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

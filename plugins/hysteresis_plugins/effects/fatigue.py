@@ -28,6 +28,17 @@ def _worn(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u) * np.exp2(-(0.3 + 0.5 * hiding.strength) * (path(hiding.drive) / (20.0 * hiding.amplitude)))
 
 
+def _levelling(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A shakedown: the loss levels off after a few cycles."""
+    passed = path(hiding.drive) / (12.0 * hiding.amplitude)
+    return inner(u) * (1.0 + 0.8 * hiding.strength * np.expm1(-passed))
+
+
+def _power(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A power of the path, quick at first and never at an end."""
+    return inner(u) * (1.0 + path(hiding.drive) / (2.0 * hiding.amplitude)) ** (-0.5 * hiding.strength)
+
+
 @dataclass(frozen=True)
 class Fatigue(Effect):
     """The amplitude of the output falls exponentially with the path that the input has travelled.
@@ -52,6 +63,7 @@ class Fatigue(Effect):
         ),
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_tired, _worn)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_levelling, _power)
     parameters = (Parameter("rate", 0.0, 1.0, "1/{input}", null=0.0, meaning="loss of amplitude a path"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -29,6 +29,18 @@ def _summed(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
 
 
+def _sinh(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Hopping conduction: the current rises with the hyperbolic sine of the input."""
+    charge = np.cumsum(np.sinh(2.0 * u / hiding.amplitude)) * hiding.step
+    return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
+
+
+def _cubic(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Space-charge limited: mostly with the cube of the input."""
+    charge = np.cumsum(u * (0.3 + (u / hiding.amplitude) ** 2)) * hiding.step
+    return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
+
+
 @dataclass(frozen=True)
 class Leakage(Effect):
     """A resistor across the device: the output collects conductance times the integral of the input over time.
@@ -53,6 +65,7 @@ class Leakage(Effect):
     affine = True
     linear = ("conductance",)
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_summed,)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_sinh, _cubic)
     parameters = (Parameter("conductance", -1.0, 1.0, "{output}/({input} {time})", null=0.0, meaning="of what leaks"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -47,6 +47,20 @@ def _slower_hum(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u) + swing * np.cos(2 * np.pi * (frequency * hiding.time - hiding.random[0]))
 
 
+def _with_overtone(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A hum with a third harmonic, as of a saturated transformer."""
+    phase = 2.0 * np.pi * (3.0 + 2.0 * hiding.random[0]) * hiding.fastest * hiding.time + hiding.random[1]
+    return inner(u) + 0.3 * hiding.strength * hiding.top * (np.cos(phase) + 0.3 * np.cos(3.0 * phase))
+
+
+def _beating(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Two neighbouring machines: the hum swells and fades."""
+    frequency = (3.0 + 2.0 * hiding.random[0]) * hiding.fastest
+    phase = 2.0 * np.pi * frequency * hiding.time
+    swell = 1.0 + 0.5 * np.cos(2.0 * np.pi * 1.3 * hiding.time / hiding.duration + hiding.random[1])
+    return inner(u) + 0.3 * hiding.strength * hiding.top * swell * np.cos(phase)
+
+
 @dataclass(frozen=True)
 class PeriodicDisturbance(Effect):
     """A sinusoid of unknown frequency is added to the output, such as the hum of the mains.
@@ -69,6 +83,7 @@ class PeriodicDisturbance(Effect):
         "input-lag": "with a periodic input, a disturbance of its frequency shifts the loop as a lag does",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_hum, _slower_hum)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_with_overtone, _beating)
     parameters = (
         Parameter("cosine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude in phase with t = 0"),
         Parameter("sine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude a quarter period later"),

@@ -38,6 +38,31 @@ def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
     return tustin(inner(u), [natural**2], [1.0, 2.0 * damping * natural, natural**2], hiding.step)
 
 
+def _hardening(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A mass on a spring that stiffens with the deflection, semi-implicit Euler."""
+    x = inner(u)
+    omega = 2.0 * np.pi / (0.72 / hiding.fastest * hiding.strength + 4.0 * hiding.step)
+    damping, stiffer = 0.1 + 0.4 * hiding.random[0], 0.3 / max(hiding.top**2, 1e-300)
+    part, place, speed = hiding.step / 10.0, float(x[0]), 0.0
+    out = np.empty_like(x)
+    out[0] = place
+    for k in range(1, x.size):
+        for j in range(10):
+            away = x[k - 1] + (x[k] - x[k - 1]) * (j + 0.5) / 10.0 - place
+            speed += part * (omega**2 * away * (1.0 + stiffer * away**2) - 2.0 * damping * omega * speed)
+            place += part * speed
+        out[k] = place
+    return out
+
+
+def _two_modes(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Two modes beside each other, four fifths of the motion in the lower one."""
+    x, low = inner(u), 2.0 * np.pi / (0.72 / hiding.fastest * hiding.strength + 4.0 * hiding.step)
+    damping = 0.1 + 0.3 * hiding.random[0]
+    modes = [tustin(x, [omega**2], [1.0, 2.0 * damping * omega, omega**2], hiding.step) for omega in (low, 2.2 * low)]
+    return 0.8 * modes[0] + 0.2 * modes[1]
+
+
 @dataclass(frozen=True)
 class Resonance(Effect):
     """A second-order lag of the output with unit static gain, which can resonate.
@@ -56,6 +81,7 @@ class Resonance(Effect):
         "transport-delay": "far below its natural frequency a damped resonance only delays",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_semi_implicit, _tustin)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_hardening, _two_modes)
     parameters = (
         Parameter("period", 0.0, 0.1, unit="{time}", null=0.0, meaning="1 / undamped natural frequency"),
         Parameter("damping", 0.02, 2.0, scaling="log", meaning="damping ratio, 1 is critical"),

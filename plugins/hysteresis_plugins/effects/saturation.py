@@ -26,6 +26,18 @@ def _strong(inner: Response, u: Array, hiding: Hiding) -> Array:
     return level * np.tanh(inner(u) / level)
 
 
+def _arctangent(inner: Response, u: Array, hiding: Hiding) -> Array:
+    steep = 2.0 * hiding.strength / hiding.top
+    return np.arctan(steep * inner(u)) / steep
+
+
+def _one_stop(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A soft stop on the upper side only."""
+    y = inner(u)
+    rise = np.maximum(y / hiding.top, 0.0)
+    return y - hiding.top * rise * np.tanh(1.5 * hiding.strength * rise**2)
+
+
 @dataclass(frozen=True)
 class Saturation(Effect):
     """A smooth, symmetric saturation of the output, such as an amplifier's or a mechanical stop's.
@@ -43,6 +55,7 @@ class Saturation(Effect):
     acts = "output"
     family = "curve of the output"
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_gentle, _strong)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_arctangent, _one_stop)
     parameters = (
         Parameter("inverse_level", 0.0, 1.0, "1/{output}", null=0.0, meaning="1 / the largest |output|"),
         Parameter("sharpness", 1.0, 20.0, scaling="log", meaning="of the bend, n"),

@@ -24,6 +24,17 @@ def _steeper(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u) * (1.0 + (0.01 + 0.005 * hiding.strength) * (hiding.temperature - 20.0))
 
 
+def _arrhenius(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Thermally activated: exponential in the inverse absolute temperature."""
+    inverse = 1.0 / 293.15 - 1.0 / (273.15 + hiding.temperature)
+    return inner(u) * np.exp(4000.0 * hiding.strength * inverse)
+
+
+def _parabolic(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Compensated at one temperature: what is left is a parabola about another one."""
+    return inner(u) * (1.0 + 0.004 * hiding.strength * (hiding.temperature - 16.0) ** 2)
+
+
 @dataclass(frozen=True)
 class TemperatureSensitivity(Effect):
     """Gain and zero of the output change linearly with the temperature, which a column of the data tells.
@@ -42,6 +53,7 @@ class TemperatureSensitivity(Effect):
     family = "change with time, path or temperature"
     affine = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_scaled, _steeper)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_arrhenius, _parabolic)
     parameters = (
         Parameter("gain", -0.05, 0.05, "1/K", null=0.0, meaning="relative change of the response"),
         Parameter("expansion", -1.0, 1.0, "{output}/K", null=0.0, meaning="change of the output's zero"),

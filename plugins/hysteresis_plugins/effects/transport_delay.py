@@ -12,7 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.effects._hidden import longest_lag, middling_lag
+from hysteresis_plugins.effects._hidden import longest_lag, middling_lag, tustin
 from hysteresis_plugins.effects._ranges import FINEST, dominant_frequency, finest_step, unresolved
 
 
@@ -24,6 +24,20 @@ def _shifted(inner: Response, u: Array, hiding: Hiding) -> Array:
 
 def _between(inner: Response, u: Array, hiding: Hiding) -> Array:
     return np.interp(hiding.time - middling_lag(hiding), hiding.time, inner(u))
+
+
+def _all_pass(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Pade's approximation of the first order, as of a digital filter's phase."""
+    half = 0.5 * longest_lag(hiding)
+    return tustin(inner(u), [-half, 1.0], [half, 1.0], hiding.step)
+
+
+def _three_ways(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """The mean of three delays, as of a moving average in an instrument."""
+    y, late = inner(u), longest_lag(hiding)
+    ways = [np.interp(hiding.time - part * late, hiding.time, y) for part in (0.4, 1.0, 1.6)]
+    mean: Array = np.mean(ways, axis=0)
+    return mean
 
 
 @dataclass(frozen=True)
@@ -47,6 +61,7 @@ class TransportDelay(Effect):
     family = "linear dynamics after the law"
     affine = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_shifted, _between)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_all_pass, _three_ways)
     parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
