@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
@@ -29,6 +30,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     promising ones, and the pair of law and effects is taken that predicts best what it did not see.
     Raises UserError telling every fault at once.
     """
+    dataset = without_spikes(dataset)
     if question.model:
         return _diagnosed(dataset, question)
     if question.settings or question.bounds or question.fixed:

@@ -13,6 +13,7 @@ import pandas as pd
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.checks.agreement import agreement_of
@@ -126,7 +127,7 @@ def fit_records(
     fixed : parameters that are known, by name, in units
     Raises UserError telling what is wrong with the names, the data, the box or the parameters.
     """
-    settings = settings or {}
+    dataset, settings = without_spikes(dataset), settings or {}
     system = _system(model, settings, effects, fixed or {}, options)
     preparation = Preparation(options.input_offset, options.flip, options.skip)
     if faults := preparation.faults(dataset.records):

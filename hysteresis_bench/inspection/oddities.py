@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.spikes import spikes_told
 from hysteresis_bench.data.units import seconds_in
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.kernels.turning_points import turning_points
@@ -41,6 +42,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         _clipping,
         _aliasing,
         _jitter,
+        spikes_told,
     )
     found = [said for record in records if record.time.size > 3 for look in looks if (said := look(record))]
     return (*found, *_alike(records))

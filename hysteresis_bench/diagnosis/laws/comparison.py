@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench import registry
+from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
@@ -86,7 +87,7 @@ def _prepared(dataset: Dataset, question: Question) -> Dataset:
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
     faults += around_faults("", question.effects) + question.preparation.faults(dataset.records)
     faults += open_loops(dataset.records) if settle and not faults else []
-    seen = dataset if faults else dataset.map(question.preparation)
+    seen = dataset if faults else without_spikes(dataset).map(question.preparation)
     if faults := faults or record_faults(seen.fitted, "compare"):
         raise UserError("compare", faults)
     return seen.map(lambda record: record.settled(PASSES)) if settle else seen

@@ -47,7 +47,7 @@ def _compliant(inner: Response, u: Array, hiding: Hiding) -> Array:
 def _worn_teeth(inner: Response, u: Array, hiding: Hiding) -> Array:
     """Clearances of three widths beside each other."""
     half = 0.3 * hiding.strength * hiding.amplitude
-    return inner(sum(_between_walls(u, half * width) for width in (0.4, 1.0, 1.6)) / 3.0)
+    return inner(np.mean([_between_walls(u, half * width) for width in (0.4, 1.0, 1.6)], axis=0))
 
 
 def _between_walls(u: Array, half: float) -> Array:

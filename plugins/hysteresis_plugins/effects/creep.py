@@ -34,7 +34,7 @@ def _power_law(inner: Response, u: Array, hiding: Hiding) -> Array:
     y, times = inner(u), 0.05 / hiding.fastest * 10.0 ** np.linspace(0.0, 3.0, 9)
     weights = times**-0.25 / np.sum(times**-0.25)
     late = 0.5 * hiding.strength
-    relaxed = sum(w * euler_lag(y, float(tau), hiding.step) for w, tau in zip(weights, times, strict=True))
+    relaxed = np.column_stack([euler_lag(y, float(tau), hiding.step) for tau in times]) @ weights
     return (1.0 - late) * y + late * relaxed
 
 

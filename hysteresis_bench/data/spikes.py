@@ -1,0 +1,141 @@
+"""Spikes: lone samples of an output that lie far off their neighbours, as a glitch of a converter leaves them.
+
+A few of them decide a least-squares fit. They are found without a model, bridged, and told one by one: a sample is a
+spike where it lies off the cubic through its two neighbours on either side by much more than the record's samples
+usually do and than the output moves around it, where its neighbours agree with each other once it is bridged (those
+of a step do not), and where the input does nothing of the kind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.signals import Dataset, Record
+
+FAR = 10.0
+"""Of the usual distance from the cubic (a standard deviation, by the median). Of 1e12 samples of normal noise none is
+so far off. Half of it takes noise with heavy tails for spikes; with twice it, spikes of 20 times the noise are
+missed."""
+
+MOTION = 3.0
+"""Of the largest movement from sample to sample around it: a sharp reversal reaches 0.7. Half of it still spares
+that."""
+
+AGREE = 0.25
+"""Of the spike, how far its neighbours may lie off their cubics once it is bridged; beside a step they do by 0.33."""
+
+SMALLEST = 2e-3
+"""Of the output's range, what is left alone in any case: it changes no fit."""
+
+MOST = 0.02
+"""Share of a record's samples beyond which they are no lone samples; then none is touched."""
+
+AROUND = 3
+"""Movements on either side that are looked at."""
+
+MEDIAN = 0.6745
+"""Of the absolute value of a standard normal variable."""
+
+LISTED = 8
+
+
+def without_spikes(dataset: Dataset) -> Dataset:
+    """The data set with the spikes of its outputs bridged, and a note on every record that had some."""
+    records, notes = [], list(dataset.notes)
+    for record in dataset.records:
+        found = spikes(record)
+        records.append(_bridged(record, found) if found.size else record)
+        notes += [_words(record, found)] if found.size else []
+    return replace(dataset, records=tuple(records), notes=tuple(notes))
+
+
+def spikes_told(record: Record) -> str:
+    """Where the spikes of a record are and what a fit does with them; empty without any."""
+    found = spikes(record)
+    return _words(record, found) if found.size else ""
+
+
+def spikes(record: Record) -> Array:
+    """Samples of the whole record that are spikes, rising indices; empty where there is no output or none is one."""
+    nothing = np.empty(0, int)
+    if record.output is None or record.time.size < 4 * AROUND or not np.ptp(record.output) > 0.0:
+        return nothing
+    y, time = record.output.copy(), record.time
+    off, loudness = distances(time, y)
+    off[[0, 1, -2, -1]] = 0.0  # these have no two neighbours on either side
+    usual = max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(y)))))
+    least = np.maximum(FAR * usual * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
+    found = []
+    for sample in np.argsort(-np.abs(off) / loudness, kind="stable").tolist():
+        if abs(off[sample]) <= least[sample]:
+            break
+        now = float(distances(time, y, [sample])[0][0])  # bridged ones no longer count
+        if abs(now) > least[sample] and _lone(time, y, sample, now, usual):
+            y[sample] -= now
+            found += [] if _moved_by_the_input(record, sample) else [sample]
+    return np.sort(np.array(found, int)) if len(found) <= max(1.0, MOST * y.size) else nothing
+
+
+def distances(time: Array, values: Array, samples: list[int] | None = None) -> tuple[Array, Array]:
+    """Of samples, default all, from the cubic through the two neighbours on either side, and the standard deviation
+    that white noise of 1 gives them: (samples,) each, unit of the values.
+
+    time, values : (n,), n >= 5. Near an end the four nearest samples take the neighbours' place.
+    """
+    at = np.arange(values.size) if samples is None else np.array(samples)
+    window = np.clip(at - 2, 0, values.size - 5)[:, None] + np.arange(5)
+    others = window[window != at[:, None]].reshape(-1, 4)
+    nodes = (time[others] - time[at][:, None]) / (time[others[:, -1:]] - time[others[:, :1]])
+    weights = np.ones_like(nodes)
+    for j in range(4):
+        for k in range(4):
+            if k != j:
+                weights[:, j] *= -nodes[:, k] / (nodes[:, j] - nodes[:, k])
+    return values[at] - np.sum(weights * values[others], axis=1), np.sqrt(1.0 + np.sum(weights**2, axis=1))
+
+
+def _lone(time: Array, y: Array, sample: int, off: float, usual: float) -> bool:
+    """Does it lie off by more than the output moves around it, and do its neighbours agree without it?"""
+    low, high = max(sample - AROUND - 1, 0), min(sample + AROUND + 2, y.size)
+    moves = np.abs(np.diff(np.concatenate([y[low:sample], [np.nan], y[sample + 1 : high]])))
+    if abs(off) < MOTION * float(np.nanmax(moves, initial=0.0)):
+        return False
+    bridged = y.copy()
+    bridged[sample] -= off
+    beside = [k for k in range(max(sample - 2, 0), min(sample + 3, y.size)) if k != sample]
+    left, loudness = distances(time, bridged, beside)
+    return bool(np.all(np.abs(left) < np.maximum(AGREE * abs(off), 4.0 * usual * loudness)))
+
+
+def _moved_by_the_input(record: Record, sample: int) -> bool:
+    """Does the input leap at this sample or at the one before?"""
+    moves = np.abs(np.diff(record.input))
+    low, high = max(sample - 2, 0), min(sample + 1, moves.size)
+    usual = float(np.median(moves[moves > 0.0])) if np.any(moves > 0.0) else 0.0
+    return bool(np.max(moves[low:high], initial=0.0) > FAR * usual)
+
+
+def _bridged(record: Record, found: Array) -> Record:
+    """The cubic through good neighbours in the place of every spike."""
+    assert record.output is not None
+    output = record.output.copy()
+    for sample in found.tolist():
+        good = np.setdiff1d(np.arange(max(sample - 6, 0), min(sample + 7, output.size)), found)
+        near = np.sort(good[np.argsort(np.abs(good - sample), kind="stable")[:4]])
+        x = (record.time[near] - record.time[sample]) / (record.time[near[-1]] - record.time[near[0]])
+        output[sample] = np.polynomial.polynomial.polyfit(x, output[near], 3)[0]
+    return replace(record, output=output)
+
+
+def _words(record: Record, found: Array) -> str:
+    times = [f"{value:.6g}" for value in record.time[found[:LISTED]].tolist()]
+    more = f" and {found.size - LISTED} more" if found.size > LISTED else ""
+    one = found.size == 1
+    return (
+        f"record {record.name}: {'one sample lies' if one else f'{found.size} samples lie'} far off "
+        f"{'its' if one else 'their'} neighbours, which agree with each other (at time {', '.join(times)}{more}). "
+        f"{'It is taken for a spike' if one else 'They are taken for spikes'} and bridged."
+    )
