@@ -21,8 +21,8 @@ so far off. Half of it takes noise with heavy tails for spikes; with twice it, s
 missed."""
 
 MOTION = 3.0
-"""Of the largest movement from sample to sample around it: a sharp reversal reaches 0.7. Half of it still spares
-that."""
+"""Of the largest movement from sample to sample around it: a sharp reversal reaches 0.7, slip in a friction damper
+more."""
 
 AGREE = 0.25
 """Of the spike, how far its neighbours may lie off their cubics once it is bridged; beside a step they do by 0.33."""
@@ -100,8 +100,8 @@ def distances(time: Array, values: Array, samples: list[int] | None = None) -> t
 def _lone(time: Array, y: Array, sample: int, off: float, usual: float) -> bool:
     """Does it lie off by more than the output moves around it, and do its neighbours agree without it?"""
     low, high = max(sample - AROUND - 1, 0), min(sample + AROUND + 2, y.size)
-    moves = np.abs(np.diff(np.concatenate([y[low:sample], [np.nan], y[sample + 1 : high]])))
-    if abs(off) < MOTION * float(np.nanmax(moves, initial=0.0)):
+    moves = np.abs(np.concatenate([np.diff(y[low:sample]), np.diff(y[sample + 1 : high])]))
+    if abs(off) < MOTION * float(np.max(moves, initial=0.0)):
         return False
     bridged = y.copy()
     bridged[sample] -= off

@@ -77,7 +77,7 @@ def test_many_are_no_lone_samples_and_none_is_touched():
 def test_near_spikes_are_bridged_and_an_end_without_neighbours_is_left_as_it_is():
     output = np.sin(2.0 * np.pi * TIME) + noise(0.001)
     spiked = output.copy()
-    spiked[[0, 300, 304, 899]] += [1.0, 1.0, -1.0, 1.0]
+    spiked[[0, 300, 310, 899]] += [1.0, 1.0, -1.0, 1.0]
     data = without_spikes(Dataset((record(spiked),)))
     assert np.max(np.abs(data.records[0].output - output)[1:-1]) < 0.05
     assert data.records[0].output[0] == spiked[0]

@@ -40,14 +40,14 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
     )
     candidates, after, evidence = candidates_of(found, ties), stages.after, found.evidence
     adopted, waterfall = stages.adopted, stages.waterfall
-    equation, remains = remainder(after, evidence)
-    if question.options.accept_terms and equation and equation.terms:
-        candidates = (description_row(equation, after), *candidates)
-        after = _described(found, equation, prepared)
+    left = remainder(after, evidence)
+    if question.options.accept_terms and left.equation and left.equation.terms:
+        candidates = (description_row(left.equation, after), *candidates)
+        after = _described(found, left.equation, prepared)
         adopted = (*adopted, registry.DESCRIPTION)
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
-        equation, remains = remainder(after, evidence)
-    outcome = Outcome(stages.before, after, adopted, found, ties, remains, dataset.units)
+        left = remainder(after, evidence)
+    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units)
     return Diagnosis(
         model_name=question.model,
         verdict="unexplained-residual" if outcome.unexplained else "effect-found" if adopted else "no-effect-needed",
@@ -64,7 +64,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         ties=ties,
         advice=_advice(found, ties),
         memory=evidence.memory,
-        equation=equation,
+        equation=left.equation,
         model=_model(after, prepared, question),
         responses=_responses(prepared.dataset, stages.before, after),
         split={

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
@@ -14,8 +16,25 @@ TELLING = 0.03
 """Share of the residual's variance from which a dependence matters."""
 
 
-def remainder(stage: Stage, evidence: Evidence) -> tuple[Equation | None, bool]:
-    """What describes the remaining residual, and whether it matters."""
+OF_THE_NOISE = ("noise-floor", "whiteness", "offset")
+"""Tests that slow noise fails, beside those of the scatter; it passes all that ask for a cause."""
+
+
+@dataclass(frozen=True)
+class Remainder:
+    """equation : what describes the residual, None where it does not matter
+    matters : something with a cause is left, or a residual that is too small a sample to tell
+    slow : nothing is left but noise that changes slowly: correlated from sample to sample, without any cause that was
+        measured, and described by no term
+    """
+
+    equation: Equation | None
+    matters: bool
+    slow: bool
+
+
+def remainder(stage: Stage, evidence: Evidence) -> Remainder:
+    """What is left at the end of a diagnosis, over all fitted records."""
     views, floor = evidence.views, evidence.floor
     scope = OVERALL if len(views) > 1 else views[0].record.name
     tests = [test for test in stage.tests if test.record == scope and test.significant]
@@ -24,6 +43,9 @@ def remainder(stage: Stage, evidence: Evidence) -> tuple[Equation | None, bool]:
         t for t in tests if t.share > TELLING and t.name not in ("noise-floor", "offset") and "scatter" not in t.name
     ]
     if stage.fitted.rmse <= floor or not (loud or telling):
-        return None, False
+        return Remainder(None, False, False)
     residuals, simulated = left_by(stage, views)
-    return find_terms([view.record for view in views], residuals, simulated), True
+    equation = find_terms([view.record for view in views], residuals, simulated)
+    caused = [test for test in tests if test.name not in OF_THE_NOISE and "scatter" not in test.name]
+    slow = any(test.name == "whiteness" for test in tests) and not caused and not equation.terms
+    return Remainder(equation, not slow, slow)

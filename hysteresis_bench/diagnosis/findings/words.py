@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
+from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
@@ -19,7 +20,7 @@ from hysteresis_bench.fit.identifiability.combinations import listed
 class Outcome:
     """What is to be told: both ends, what was adopted on the way, and whether something remains.
 
-    remains : structure that matters is left in the residual;  units : of the output, as the records have it
+    left : in the residual;  units : of the output, as the records have it
     """
 
     before: Stage
@@ -27,7 +28,7 @@ class Outcome:
     adopted: tuple[str, ...]
     found: Found
     ties: Sequence[Tie]
-    remains: bool
+    left: Remainder
     units: Mapping[str, str]
 
     @property
@@ -42,12 +43,12 @@ class Outcome:
 
     @property
     def unexplained(self) -> bool:
-        return self.remains or not self.found.follows or not self.carries_over
+        return self.left.matters or not self.found.follows or not self.carries_over
 
     @property
     def doubted(self) -> bool:
         """Is so much left that the names may stand in for what is wrong with the law?"""
-        return self.after.fitted.rmse > WRONG * self.evidence.floor
+        return self.after.fitted.rmse > WRONG * self.evidence.floor and not self.left.slow
 
 
 def headline(outcome: Outcome) -> str:
@@ -101,6 +102,12 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.append(
             f"The final system still leaves {after.fitted.rmse / floor:.2g} times the noise: the model's own law does "
             "not follow these data, and what is named may stand in for that."
+        )
+    if outcome.left.slow:
+        said.append(
+            f"What is left is {after.fitted.rmse / floor:.2g} times the noise from sample to sample and is correlated, "
+            "but depends on nothing that was measured here, and no term describes it: slow noise, or a cause beside "
+            "the input that these data do not show."
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")

@@ -1,0 +1,39 @@
+"""Records with one fault each: the same names as without it, and the fault is told."""
+
+import numpy as np
+import pytest
+
+from hysteresis_bench import measure
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
+
+RECORDS = ("slow", "fast", "nested", "mixed")
+
+
+def found_in(imperfect, effects=(), law="bouc-wen", seed=3):
+    settings = {"model": law, "imperfect": imperfect, "effects": effects, "noise": 0.004}
+    data = measure("hidden-effects", *RECORDS, settings=settings, seed=seed).split(RECORDS[-1:])
+    return diagnose(data, Question("bouc-wen", options=DiagnosisOptions(jobs=1))), data
+
+
+@pytest.mark.parametrize("effects", [(), ("creep",)])
+def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects):
+    found, _ = found_in("coloured", effects)
+    assert found.effects == effects
+    assert found.verdict == ("effect-found" if effects else "no-effect-needed")
+    assert any("depends on nothing that was measured here" in one for one in found.warnings)
+    assert not any("law does not follow" in one for one in found.warnings)
+
+
+def test_a_wrong_law_is_not_taken_for_slow_noise():
+    found, _ = found_in("", law="energy-based")
+    assert found.verdict == "unexplained-residual"
+    assert not any("depends on nothing that was measured" in one for one in found.warnings)
+
+
+def test_spikes_are_bridged_and_told_and_do_not_change_what_is_found():
+    found, data = found_in("spiked", ("saturation",))
+    assert found.effects == ("saturation",)
+    assert sum("taken for spikes" in one for one in found.warnings) == len(data.records)
+    assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
+    assert np.max(np.abs(data.records[0].output)) > 0.0  # the caller's own records are as they were
