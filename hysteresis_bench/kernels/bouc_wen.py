@@ -51,7 +51,7 @@ def paths(u: Array) -> tuple[Array, Array]:
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _series(x):  # type: ignore[no-untyped-def]
+def series(x):  # type: ignore[no-untyped-def]
     """(1 - exp(-x)) / x for |x| <= SERIES_LIMIT, in an order that a processor can overlap."""
     x2 = x * x
     x4 = x2 * x2
@@ -75,7 +75,7 @@ def _coarse(work: Array, used: int, largest: float) -> int:
         against = work[AGAINST + j]
         rate = against if work[G + j] < 0.0 else along
         part = work[WIDTH + j] * scale
-        work[WEAKENED + j] = part * _series(rate * part)
+        work[WEAKENED + j] = part * series(rate * part)
     for _ in range(doublings):  # (1 - e^-2x) / rate = f (2 - rate f), which loses no digits
         for j in range(used):
             along = work[ALONG + j]
@@ -111,7 +111,7 @@ def _fine(work, j, g, width):  # type: ignore[no-untyped-def]
     along = work[ALONG + j]
     against = work[AGAINST + j]
     rate = against if g < 0.0 else along
-    return relaxed(g, work[DRIVE + j], rate, width * _series(rate * width))
+    return relaxed(g, work[DRIVE + j], rate, width * series(rate * width))
 
 
 @njit(inline="always", error_model="numpy")
