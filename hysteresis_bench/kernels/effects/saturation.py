@@ -9,7 +9,6 @@ from numba import njit
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.elementary import exponential, logarithm
 
-
 WHOLE = 8
 """Columns that go side by side; of what is left over, the samples do, or a vector would be left half empty."""
 
