@@ -98,6 +98,42 @@ def systems() -> list[Line]:
     ]
 
 
+LAWS = ("bouc-wen", "jiles-atherton", "free-energy")
+SWARMS = 4
+
+
+def inside() -> list[Line]:
+    """Of a law with eddy currents inside, its time over that without, for swarms drawn from the box: mean and worst."""
+    from hysteresis_bench import registry
+    from hysteresis_bench.compose import System
+    from hysteresis_bench.kernels.resources import economical
+    from hysteresis_bench.parameters import Space
+    from hysteresis_bench.signals import Record
+
+    grid = np.linspace(0.0, 6.0, SAMPLES)
+    drive = 2.5 * np.sin(np.pi * grid) + np.sin(3.5 * np.pi * grid)
+    record = Record(grid, drive, np.tanh(drive))
+    runs: dict[str, Callable[[], object]] = {}
+    for law in LAWS:
+        model = registry.build("models", law)
+        for swarm in range(SWARMS):
+            for effects in ((), ("eddy-current",)):
+                system = System(model, registry.build_effects(model, effects))
+                space = Space(system.box((record,)))
+                values = space.from_unit(np.random.default_rng(swarm).random((space.dimension, PARTICLES)))
+                runs[f"{law} {swarm} {bool(effects)}"] = lambda system=system, values=values: system.respond(
+                    record, values
+                )
+    with economical():
+        seconds = fastest(runs, 3)
+    lines = []
+    for law in LAWS:
+        times = [seconds[f"{law} {swarm} True"] / seconds[f"{law} {swarm} False"] for swarm in range(SWARMS)]
+        lines += [Line(law, float(np.mean(times)), 10.0), Line(f"{law}, the worst of {SWARMS} swarms", max(times))]
+    return lines
+
+
 if __name__ == "__main__":
     show(f"Kernels, {PARTICLES} particles, {SAMPLES} samples; B = bouc-wen with a shared input", "B", kernels())
     show("Bouc-Wen with effects around it, against the bare one", "times", systems())
+    show("Laws with eddy currents inside, against themselves without", "times", inside())

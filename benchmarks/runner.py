@@ -2,7 +2,8 @@
 
 Shipped plugins share a worker; a trial of another distribution is a forked process of its own, which finds the problem
 prepared where only its optimizer comes from elsewhere, and prepares it where its model does too. Storing is included,
-and so is measuring the best point on the fitted and on the held-out records.
+and so is measuring the best point on the fitted and on the held-out records. Then what two workers add: a study by
+`run --jobs 2` against two processes at once that each run a study of half its trials alone.
 
     .venv/bin/python benchmarks/runner.py [--scheduler ADDRESS]
 """
@@ -10,6 +11,7 @@ and so is measuring the best point on the fitted and on the held-out records.
 from __future__ import annotations
 
 import argparse
+import subprocess
 import sys
 import tempfile
 import time
@@ -53,6 +55,47 @@ def milliseconds(folder: Path, model: str, optimizer: str, trials: int, schedule
         return 1e3 * (time.perf_counter() - begun - searched) / trials
 
 
+STUDY = """title = "t"
+seed = {seed}
+trials = {trials}
+budget = 60200
+
+[[problem]]
+name = "p"
+model = "bouc-wen"
+data = ["data.csv"]
+
+[[optimizer]]
+plugin = "pso"
+"""
+
+
+def wall_seconds(folder: Path, studies: int, trials: int, jobs: int) -> float:
+    """Of this many processes at once, each with a study of its own."""
+    running = []
+    begun = time.perf_counter()
+    for seed in range(1, studies + 1):
+        study = folder / f"study-{seed}.toml"
+        study.write_text(STUDY.format(seed=seed, trials=trials))
+        results = tempfile.mkdtemp(dir=folder)
+        call = [sys.executable, "-m", "hysteresis_bench", "run", str(study), "--jobs", str(jobs), "--out", results]
+        running.append(subprocess.Popen(call, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+    for process in running:
+        assert process.wait() == 0
+    return time.perf_counter() - begun
+
+
+def two_workers(folder: Path, trials: int) -> Line:
+    """The best of three turns each, after one that compiles."""
+    wall_seconds(folder, 1, 2, 1)
+    together, apart = [], []
+    for _ in range(3):
+        together.append(wall_seconds(folder, 1, trials, 2))
+        apart.append(wall_seconds(folder, 2, trials // 2, 1))
+    name = f"{trials} trials by one run with two workers, in so many times the speed of two runs of half of them"
+    return Line(name, min(apart) / min(together), least=0.93)
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--scheduler", help="of Dask distributed; its workers must find tests/test_plugins")
@@ -67,6 +110,7 @@ def main() -> None:
             for kind, (model, optimizer, trials) in KINDS.items()
         ]
         show("A trial beyond its search, the best of three times", "ms", lines)
+        show("Workers", "ratio", [two_workers(folder, 48)])
 
 
 if __name__ == "__main__":

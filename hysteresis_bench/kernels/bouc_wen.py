@@ -21,6 +21,11 @@ SERIES_LIMIT = 0.25
 LANES = 64
 """Particles that are integrated side by side."""
 
+FULL = 8
+"""Particles on a shared input are integrated in multiples of this many, those that pad them at rest: a loop over
+what is left of a vector takes longer than one over all of it, but for FEW particles."""
+FEW = 3
+
 # Rows of one work array: constant offsets tell the compiler that they do not overlap.
 G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, MIRROR, DIRECTION, OUT = (
     row * LANES for row in range(12)
@@ -51,7 +56,7 @@ def paths(u: Array) -> tuple[Array, Array]:
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _series(x):  # type: ignore[no-untyped-def]
+def series(x):  # type: ignore[no-untyped-def]
     """(1 - exp(-x)) / x for |x| <= SERIES_LIMIT, in an order that a processor can overlap."""
     x2 = x * x
     x4 = x2 * x2
@@ -75,7 +80,7 @@ def _coarse(work: Array, used: int, largest: float) -> int:
         against = work[AGAINST + j]
         rate = against if work[G + j] < 0.0 else along
         part = work[WIDTH + j] * scale
-        work[WEAKENED + j] = part * _series(rate * part)
+        work[WEAKENED + j] = part * series(rate * part)
     for _ in range(doublings):  # (1 - e^-2x) / rate = f (2 - rate f), which loses no digits
         for j in range(used):
             along = work[ALONG + j]
@@ -111,7 +116,7 @@ def _fine(work, j, g, width):  # type: ignore[no-untyped-def]
     along = work[ALONG + j]
     against = work[AGAINST + j]
     rate = against if g < 0.0 else along
-    return relaxed(g, work[DRIVE + j], rate, width * _series(rate * width))
+    return relaxed(g, work[DRIVE + j], rate, width * series(rate * width))
 
 
 @njit(inline="always", error_model="numpy")
@@ -152,6 +157,7 @@ def _side_by_side(
     alpha, beta, gamma, d = p
     length, largest = moved
     samples, used = v.shape
+    full = -(-used // FULL) * FULL if used > FEW else used
     work = np.zeros(ROWS * LANES)
     fastest = 0.0
     widest = 0.0
@@ -205,15 +211,15 @@ def _side_by_side(
         width = abs(step)
         if (step < 0.0) == rising and step != 0.0:
             rising = not rising
-            for j in range(used):
+            for j in range(full):
                 work[G + j] = _turned(work, j, step)
         if steepest > SERIES_LIMIT:
-            work[WIDTH : WIDTH + used] = width
-            special = _coarse(work, used, steepest)
-            for j in range(used):
+            work[WIDTH : WIDTH + full] = width
+            special = _coarse(work, full, steepest)
+            for j in range(full):
                 work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
         else:  # the same in one pass
-            for j in range(used):
+            for j in range(full):
                 g = work[G + j]
                 free = _fine(work, j, g, width)
                 work[OLD + j] = g
@@ -221,9 +227,9 @@ def _side_by_side(
                 work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * free
                 special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
         if special > 0:
-            work[WIDTH : WIDTH + used] = width
-            _mended(work, used)
-            for j in range(used):
+            work[WIDTH : WIDTH + full] = width
+            _mended(work, full)
+            for j in range(full):
                 work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
         for j in range(used):
             v[i, j] = work[OUT + j]

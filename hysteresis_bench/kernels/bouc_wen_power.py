@@ -20,7 +20,8 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.bouc_wen import paths
+from hysteresis_bench.kernels.bouc_wen import FEW as FEW_LANES
+from hysteresis_bench.kernels.bouc_wen import FULL, paths
 from hysteresis_bench.kernels.bouc_wen_step import RUNAWAY, integrated
 from hysteresis_bench.kernels.elementary import exponential, logarithm
 
@@ -40,8 +41,8 @@ LANES = 64
 
 # Rows of one work array: constant offsets tell the compiler that they do not overlap.
 H, G, OLD, WIDTH, SIGN, SPECIAL, DRIVE, ALONG = (row * LANES for row in range(8))
-AGAINST, BOUND, SLOPE, MIRROR, INPUT, POWER = (row * LANES for row in range(8, 14))
-ROWS = 14
+AGAINST, BOUND, SLOPE, MIRROR, INPUT, POWER, OUT = (row * LANES for row in range(8, 15))
+ROWS = 15
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
@@ -106,7 +107,7 @@ def _stepped(work, j, g, width, n, whole):  # type: ignore[no-untyped-def]
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _at_once(work, j, x, step, n, whole, out):  # type: ignore[no-untyped-def]
+def _at_once(work, j, x, step, n, whole):  # type: ignore[no-untyped-def]
     """One lane on to the input x by one step -> 1 where that is not right, which SPECIAL marks."""
     mirror = work[MIRROR + j]
     sign = mirror if step >= 0.0 else -mirror
@@ -119,7 +120,7 @@ def _at_once(work, j, x, step, n, whole, out):  # type: ignore[no-untyped-def]
     work[G + j] = new
     work[H + j] = sign * new
     work[SPECIAL + j] = 0.0 if right else 1.0
-    out[j] = work[SLOPE + j] * x - sign * new
+    work[OUT + j] = work[SLOPE + j] * x - sign * new
     return 0 if right else 1
 
 
@@ -156,6 +157,7 @@ def _simulated(u, alpha, beta, gamma, d, n, whole):  # type: ignore[no-untyped-d
     flat, inputs, shared = v.reshape(samples * swarm), u.ravel(), columns == 1
     for first in range(0, swarm, LANES):
         used = min(LANES, swarm - first)
+        full = -(-used // FULL) * FULL if whole > 0 and used > FEW_LANES else used
         work = np.zeros(ROWS * LANES)
         for j in range(used):
             column = 0 if shared else first + j
@@ -173,16 +175,18 @@ def _simulated(u, alpha, beta, gamma, d, n, whole):  # type: ignore[no-untyped-d
         for i in range(1, samples):
             out = flat[i * swarm + first : i * swarm + first + used]
             special = 0
-            _powers(work, used, n, whole, H)
+            _powers(work, full, n, whole, H)
             if shared:
                 x = u[i, 0]
                 step = x - u[i - 1, 0]
-                for j in range(used):
-                    special += _at_once(work, j, x, step, n, whole, out)
+                for j in range(full):
+                    special += _at_once(work, j, x, step, n, whole)
             else:
                 row = inputs[i * swarm + first : i * swarm + first + used]
                 for j in range(used):
-                    special += _at_once(work, j, row[j], row[j] - work[INPUT + j], n, whole, out)
+                    special += _at_once(work, j, row[j], row[j] - work[INPUT + j], n, whole)
+            for j in range(used):
+                out[j] = work[OUT + j]
             if special == 0:
                 continue
             steps = max(steps // 2, 2)

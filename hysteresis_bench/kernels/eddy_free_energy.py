@@ -8,20 +8,21 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.eddy_current import acting
-from hysteresis_bench.kernels.free_energy import LANES, error_function, moving, radii
+from hysteresis_bench.kernels.eddy_current import COEFFICIENT, LANES, NEW, OPEN, OUT, ROWS, TRIAL, Y, Z, simulated
+from hysteresis_bench.kernels.free_energy import LANES as NODES
+from hysteresis_bench.kernels.free_energy import error_function, moving, radii
 from hysteresis_bench.kernels.play import played
 
 # Rows of the nodes' work array: the plays' P and their share of the magnetization, each with what the last trial found.
 RADIUS, WEIGHT, STATE, TERM, NEXT_STATE, NEXT_TERM = range(6)
-SCALE, SLOPE, AMPLITUDE, MOVED = range(4)
+# Rows of a group of particles; MOVED: how many nodes the last trial moved.
+SCALE, SLOPE, AMPLITUDE, MOVED = ((ROWS + row) * LANES for row in range(4))
+WIDTH = (ROWS + 4) * LANES
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
-def _advanced(of: tuple[Array, Array], z: float) -> float:
-    """M where the acting field has moved on to z; the MOVED nodes of smallest radius find NEXT_STATE, NEXT_TERM."""
-    nodes, s = of
-    h = s[SCALE] * z
+def _switched(nodes: Array, h: float) -> tuple[int, float]:
+    """How many nodes of one particle, those of smallest radius, the scaled field h moves, and the sum of all terms."""
     moved = moving(h, nodes[STATE], nodes[RADIUS])
     total = 0.0
     for j in range(moved):
@@ -31,16 +32,26 @@ def _advanced(of: tuple[Array, Array], z: float) -> float:
         total += nodes[NEXT_TERM, j]
     for j in range(moved, nodes.shape[1]):
         total += nodes[TERM, j]
-    s[MOVED] = moved
-    return s[SLOPE] * z + s[AMPLITUDE] * total
+    return moved, total
+
+
+@njit(cache=True, error_model="numpy")
+def _advanced(nodes: Array, s: Array) -> None:
+    """M where the acting field has moved on to the trial; particles one by one, as their nodes go side by side."""
+    for j in range(LANES):
+        if s[OPEN + j] > 0.0:
+            z = s[TRIAL + j]
+            s[MOVED + j], total = _switched(nodes[j], s[SCALE + j] * z)
+            s[OUT + j] = s[SLOPE + j] * z + s[AMPLITUDE + j] * total
 
 
 @njit(cache=True, error_model="numpy")
 def _kept(nodes: Array, s: Array) -> None:
     """What the last trial found is the state."""
-    for j in range(int(s[MOVED])):
-        nodes[STATE, j] = nodes[NEXT_STATE, j]
-        nodes[TERM, j] = nodes[NEXT_TERM, j]
+    for j in range(LANES):
+        for k in range(int(s[MOVED + j])):
+            nodes[j, STATE, k] = nodes[j, NEXT_STATE, k]
+            nodes[j, TERM, k] = nodes[j, NEXT_TERM, k]
 
 
 @njit(cache=True, error_model="numpy")
@@ -64,26 +75,26 @@ def eddy_magnetization(
     -> float64[samples, swarm]        C order; z = H at the first sample, which switches the demagnetized plays
     """
     samples, swarm = field.shape[0], slope.size
-    padded = -(-offsets.size // LANES) * LANES
-    nodes = np.zeros((6, padded))
-    s = np.zeros(4)
-    nodes[WEIGHT, : offsets.size] = weights
+    nodes = np.zeros((LANES, 6, -(-offsets.size // NODES) * NODES))
     magnetized = np.empty((samples, swarm))
-    for i in range(swarm):
-        column = i if field.shape[1] > 1 else 0
-        s[SCALE] = 1.0 / (interaction[i] * math.sqrt(2.0))
-        s[SLOPE] = slope[i]
-        s[AMPLITUDE] = amplitude[i]
-        radii(s[SCALE], coercive_field[i], spread[i], offsets, nodes[RADIUS])
-        nodes[STATE] = 0.0
-        nodes[TERM] = 0.0
-        z = field[0, column]
-        magnetized[0, i] = _advanced((nodes, s), z)
+    for first in range(0, swarm, LANES):
+        nodes[:] = 0.0
+        work = np.zeros((1, WIDTH))
+        s = work[0]
+        for j in range(LANES):
+            p = min(first + j, swarm - 1)
+            s[COEFFICIENT + j] = coefficient[p]
+            s[SCALE + j] = 1.0 / (interaction[p] * math.sqrt(2.0))
+            s[SLOPE + j] = slope[p]
+            s[AMPLITUDE + j] = amplitude[p]
+            nodes[j, WEIGHT, : offsets.size] = weights
+            radii(s[SCALE + j], coercive_field[p], spread[p], offsets, nodes[j, RADIUS])
+            s[NEW + j] = s[TRIAL + j] = s[Z + j] = field[0, p if field.shape[1] > 1 else 0]
+            s[OPEN + j] = 1.0
+        _advanced(nodes, s)
         _kept(nodes, s)
-        for k in range(1, samples):
-            rate = coefficient[i] / (time[k] - time[k - 1])
-            z, magnetized[k, i] = acting(
-                _advanced, (nodes, s), z, magnetized[k - 1, i], field[k - 1, column], field[k, column], rate
-            )
-            _kept(nodes, s)
+        for j in range(LANES):
+            s[Y + j] = s[OUT + j]
+            magnetized[0, min(first + j, swarm - 1)] = s[Y + j]
+        simulated(_advanced, _kept, nodes, work, time, field, first, magnetized)
     return magnetized

@@ -8,38 +8,52 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.eddy_current import acting
+from hysteresis_bench.kernels.eddy_current import COEFFICIENT, GROUPS, LANES, NEW, OUT, ROWS, TRIAL, Y, Z, simulated
 from hysteresis_bench.kernels.jiles_atherton import MU0, advanced, extrapolated, first_anhysteretic
 
-# Parameters and state of one particle, as in `jiles_atherton`; the NEXT ones are where the last trial ended.
-ALPHA, A, K, M_S, C, CLAMPED, FIELD, LAST, MI, D, M, RISE_D, RISE_M, NEXT_MI, NEXT_D, NEXT_M = range(16)
+# Rows of a group: parameters and state as in `jiles_atherton`, and, in the same order, what the last trial found.
+ALPHA, INVERSE_A, PULL, K, M_S, C = ((ROWS + row) * LANES for row in range(6))
+LAST, MI, D, M, RISE_D, RISE_M = ((ROWS + row) * LANES for row in range(6, 12))
+FOUND = 6 * LANES
+WIDTH = (ROWS + 18) * LANES
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _tried(s, clamped):  # type: ignore[no-untyped-def]
+    """B where the acting field has moved on to the trial; clamped : a constant where it is called."""
+    for j in range(LANES):
+        z = s[TRIAL + j]
+        dH = z - s[Z + j]
+        Mi, D_, M_ = advanced(
+            z, abs(dH), math.copysign(1.0, dH), extrapolated(dH, s[LAST + j]),
+            s[ALPHA + j], s[INVERSE_A + j], s[PULL + j], s[K + j], s[M_S + j], s[C + j],
+            s[MI + j], s[D + j], s[M + j], s[RISE_D + j], s[RISE_M + j], clamped,
+        )  # fmt: skip
+        moved = dH != 0.0
+        before = s[M + j]
+        found = M_ if moved else before  # for itself: the compiler would read back what it has just stored
+        s[FOUND + LAST + j] = dH if moved else s[LAST + j]
+        s[FOUND + MI + j] = Mi if moved else s[MI + j]
+        s[FOUND + D + j] = D_ if moved else s[D + j]
+        s[FOUND + M + j] = found
+        s[FOUND + RISE_D + j] = D_ - s[D + j] if moved else s[RISE_D + j]
+        s[FOUND + RISE_M + j] = M_ - before if moved else s[RISE_M + j]
+        s[OUT + j] = MU0 * (z + found)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _response(clamped: bool, s: Array) -> None:
+    if clamped:
+        _tried(s, True)
+    else:
+        _tried(s, False)
 
 
 @njit(cache=True, error_model="numpy")
-def _response(s: Array, z: float) -> float:
-    """B where the acting field has moved on to z: the step of `jiles_atherton`, for one particle."""
-    dH = z - s[FIELD]
-    if dH == 0.0:
-        s[NEXT_MI], s[NEXT_D], s[NEXT_M] = s[MI], s[D], s[M]
-        return MU0 * (z + s[M])
-    s[NEXT_MI], s[NEXT_D], s[NEXT_M] = advanced(
-        z, abs(dH), math.copysign(1.0, dH), extrapolated(dH, s[LAST]),
-        s[ALPHA], 1.0 / s[A], s[ALPHA] * s[M_S] / s[A], s[K], s[M_S], s[C],
-        s[MI], s[D], s[M], s[RISE_D], s[RISE_M], s[CLAMPED] != 0.0,
-    )  # fmt: skip
-    return MU0 * (z + s[NEXT_M])
-
-
-@njit(cache=True, error_model="numpy")
-def _kept(s: Array, z: float) -> None:
+def _kept(clamped: bool, s: Array) -> None:
     """What the last trial found is the state."""
-    if z == s[FIELD]:
-        return
-    s[RISE_D] = s[NEXT_D] - s[D]
-    s[RISE_M] = s[NEXT_M] - s[M]
-    s[MI], s[D], s[M] = s[NEXT_MI], s[NEXT_D], s[NEXT_M]
-    s[LAST] = z - s[FIELD]
-    s[FIELD] = z
+    for row in range(LAST, LAST + FOUND):
+        s[row] = s[FOUND + row]
 
 
 @njit(cache=True, error_model="numpy")
@@ -63,17 +77,25 @@ def eddy_jiles_atherton(
     """
     samples, swarm = H.shape[0], alpha.size
     B = np.empty((samples, swarm))
-    for j in range(swarm):
-        column = j if H.shape[1] > 1 else 0
-        s = np.zeros(16)
-        s[ALPHA], s[A], s[K], s[M_S], s[C] = alpha[j], a[j], k[j], M_s[j], c[j]
-        s[CLAMPED] = 1.0 if clamped else 0.0
-        s[FIELD] = H[0, column]
-        s[D] = first_anhysteretic(H[0, column], alpha[j], a[j], M_s[j], c[j])
-        s[M] = c[j] * s[D]
-        B[0, j] = MU0 * (H[0, column] + s[M])
-        for i in range(1, samples):
-            rate = coefficient[j] / (time[i] - time[i - 1])
-            z, B[i, j] = acting(_response, s, s[FIELD], B[i - 1, j], H[i - 1, column], H[i, column], rate)
-            _kept(s, z)
+    for first in range(0, swarm, GROUPS * LANES):
+        work = np.zeros((min(GROUPS, (swarm - first + LANES - 1) // LANES), WIDTH))
+        for g in range(work.shape[0]):
+            s = work[g]
+            for j in range(LANES):
+                p = min(first + g * LANES + j, swarm - 1)
+                field = H[0, p if H.shape[1] > 1 else 0]
+                s[COEFFICIENT + j] = coefficient[p]
+                s[ALPHA + j] = alpha[p]
+                s[INVERSE_A + j] = 1.0 / a[p]
+                s[PULL + j] = alpha[p] * M_s[p] / a[p]
+                s[K + j] = k[p]
+                s[M_S + j] = M_s[p]
+                s[C + j] = c[p]
+                s[D + j] = first_anhysteretic(field, alpha[p], a[p], M_s[p], c[p])
+                s[M + j] = c[p] * s[D + j]
+                s[NEW + j] = field
+                s[Z + j] = field
+                s[Y + j] = MU0 * (field + s[M + j])
+                B[0, p] = s[Y + j]
+        simulated(_response, _kept, clamped, work, time, H, first, B)
     return B

@@ -30,13 +30,20 @@ def play_bank(u: Array, radii: Array, coefficients: Array) -> Array:
     y = np.zeros((samples, swarm))
     for i in range(samples):
         for k in range(plays):
+            if powers == 1:  # the same in one pass
+                for j in range(swarm):
+                    now = u[i, j] if columns > 1 else u[i, 0]
+                    place = played(now, radii[k, j], state[k, j])
+                    state[k, j] = place
+                    y[i, j] += place * coefficients[k, 0, j]
+                continue
             for j in range(swarm):
                 now = u[i, j] if columns > 1 else u[i, 0]
                 state[k, j] = played(now, radii[k, j], state[k, j])
                 value[j] = coefficients[k, powers - 1, j]
-            for m in range(powers - 2, -1, -1):
+            for m in range(powers - 2, 0, -1):
                 for j in range(swarm):
                     value[j] = coefficients[k, m, j] + state[k, j] * value[j]
             for j in range(swarm):
-                y[i, j] += state[k, j] * value[j]
+                y[i, j] += state[k, j] * (coefficients[k, 0, j] + state[k, j] * value[j])
     return y

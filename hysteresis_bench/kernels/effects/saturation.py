@@ -9,6 +9,21 @@ from numba import njit
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.elementary import exponential, logarithm
 
+WHOLE = 8
+"""Columns that go side by side; of what is left over, the samples do, or a vector would be left half empty."""
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _bent(x, inverse_level, level, sharpness, softness):  # type: ignore[no-untyped-def]
+    excess = abs(inverse_level * x)
+    within = excess <= 1.0
+    # the powers of the smaller of excess and 1 / excess, so that none overflows
+    least = excess if within else 1.0 / excess
+    power = exponential(sharpness * logarithm(least))
+    folded = exponential(-logarithm(1.0 + power) * softness)
+    bent = x * folded if within else math.copysign(folded, x) * level
+    return bent if x == x else x
+
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
 def saturate(y: Array, inverse_level: Array, sharpness: Array) -> None:
@@ -20,14 +35,12 @@ def saturate(y: Array, inverse_level: Array, sharpness: Array) -> None:
     """
     samples, swarm = y.shape
     softness, level = 1.0 / sharpness, 1.0 / inverse_level
+    whole = swarm - swarm % WHOLE
     for i in range(samples):
-        for j in range(swarm):
-            x = y[i, j]
-            excess = abs(inverse_level[j] * x)
-            within = excess <= 1.0
-            # the powers of the smaller of excess and 1 / excess, so that none overflows
-            least = excess if within else 1.0 / excess
-            power = exponential(sharpness[j] * logarithm(least))
-            folded = exponential(-logarithm(1.0 + power) * softness[j])
-            bent = x * folded if within else math.copysign(folded, x) * level[j]
-            y[i, j] = bent if x == x else x
+        for j in range(whole):
+            y[i, j] = _bent(y[i, j], inverse_level[j], level[j], sharpness[j], softness[j])
+    for j in range(whole, swarm):
+        column = y[:, j].copy()
+        for i in range(samples):
+            column[i] = _bent(column[i], inverse_level[j], level[j], sharpness[j], softness[j])
+        y[:, j] = column

@@ -88,10 +88,12 @@ def with_eddy_current(
     plain(u, p) : without; dragged(time, u, coefficient, p) : with, for the particles whose coefficient is not 0.
     The others are plain to the last bit.
     """
-    output = plain(signal.input, p)
     eddy = getattr(p, "eddy_current", None)
     if eddy is None or not signal.timed or not (on := np.flatnonzero(eddy.coefficient)).size:
-        return output
+        return plain(signal.input, p)
+    if on.size == eddy.coefficient.size:
+        return dragged(signal.time, np.ascontiguousarray(signal.input), eddy.coefficient, p)
+    output = plain(signal.input, p)
     u = signal.input if signal.input.shape[1] == 1 else np.ascontiguousarray(signal.input[:, on])
     some = p._make(values[on] if isinstance(values, np.ndarray) else values for values in p)
     output[:, on] = dragged(signal.time, u, eddy.coefficient[on], some)
