@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.report.shared.blocks import Terms
 from hysteresis_bench.report.shared.page import Section, files_beside
-from hysteresis_bench.report.trials.problem import EXACT
+from hysteresis_bench.report.trials.best_known import EXACT
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS
 
 SUCCESS = "A success is a trial whose fitness is within 1 % of the best known to the study on the problem."
@@ -36,7 +36,7 @@ DEFINITIONS = (
         "share their first points (zero differences after Pratt), corrected after Holm within a problem. Fitness "
         "within 0.01 % of the best known counts as the best known; on data without noise, so does every fit with a "
         f"relative RMS below {EXACT:g}. Below "
-        f"{stats.ENOUGH} trials no p-value is given.",
+        f"{statistics.ENOUGH} trials no p-value is given.",
     ),
     (
         "A12",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -11,7 +11,9 @@ from hysteresis_bench.errors import told
 from hysteresis_bench.report.paper import audit, beside, claims, decisions
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches import section as searches
-from hysteresis_bench.report.searches.looks import choose, floors
+from hysteresis_bench.report.searches.figures import all_trials
+from hysteresis_bench.report.searches.looks import Look, choose, floors
+from hysteresis_bench.report.shared.blocks import Block, Details, Figures
 from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.stages import section as stages
 from hysteresis_bench.report.study import (
@@ -24,10 +26,25 @@ from hysteresis_bench.report.study import (
     signals,
     words,
 )
+from hysteresis_bench.report.trials import instances
+from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.results import Results
 
 Part = Callable[[], Section | None]
+FOLDED = {
+    "budgets",
+    "iterations",
+    "searches",
+    "signals",
+    "held-out",
+    "claims",
+    "run",
+    "audit",
+    "decisions",
+    "definitions",
+}
+"""Anchors of the sections that are folded away."""
 CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
 """What a table or an object raises that has not the content it was written with."""
 
@@ -44,9 +61,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
 
     parts: list[Part] = [
-        lambda: run.section(results, here),
         lambda: beside.section(published, results, everybody),
-        lambda: claims.section(judged),
         lambda: optimizers.at_equal_evaluations(here, summary, reference, looks=looks, folder=folder),
         lambda: optimizers.at_other_budgets(results),
         lambda: optimizers.at_the_papers_iterations(results, here, published.iterations),
@@ -55,8 +70,11 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
         lambda: held_out.section(results, here, summary, published=published),
         lambda: stages.section(results, published, folder),
         lambda: determined.section(results, folder),
-        lambda: audit.section(audit.audit(published)),
         lambda: closing_section.section(results, folder),
+        lambda: claims.section(judged),
+        lambda: instances.section(results),
+        lambda: run.section(results, here),
+        lambda: audit.section(audit.audit(published)),
         lambda: decisions.section(published, results.study.notes),
         lambda: definitions.section(folder),
     ]
@@ -64,12 +82,26 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     return Page(
         results.study.title,
         "hysteresis-bench study",
-        sections,
-        [*words.answer(here, summary, judged), *how_it_closed(results)],
+        [_folded(section) if section.anchor in FOLDED else section for section in sections],
+        [*words.answer(here, summary, judged), *how_it_closed(results), *_at_a_glance(judged, here, looks, folder)],
         warnings=[*results.damages, *damages],
         warned="What is not here",
         contents=True,
     )
+
+
+def _at_a_glance(
+    judged: Sequence[claims.Judged], here: Sequence[Problem], looks: Mapping[str, Look], folder: Path
+) -> list[Block]:
+    """What the first screen shows below the answer: the claims, and every trial."""
+    table = claims.table(judged)
+    pictures = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in searches.drawable(here)]
+    return [*([table] if table else []), *([Figures(pictures)] if pictures else [])]
+
+
+def _folded(section: Section) -> Section:
+    """Behind a line that opens it: details that a reader asks for."""
+    return Section(section.anchor, section.heading, [Details("Show", section.blocks)])
 
 
 def whole(parts: Sequence[Part]) -> tuple[list[Section], list[str]]:
