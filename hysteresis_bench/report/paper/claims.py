@@ -46,8 +46,10 @@ def judge(published: Published, problems: list[Problem]) -> list[Judged]:
     """Every claim on every problem; p is Holm-corrected over the claims of a problem."""
     judged = []
     for problem in problems:
-        told = [claim for claim in published.claim if problem.traces or claim.metric != TO_SUCCESS]
-        able = [claim for claim in told if {claim.better, claim.worse} <= set(problem.labels)]
+        labels = set(problem.labels)
+        asked = [claim for claim in published.claim if not claim.ablation or {claim.better, claim.worse} <= labels]
+        told = [claim for claim in asked if problem.traces or claim.metric != TO_SUCCESS]
+        able = [claim for claim in told if {claim.better, claim.worse} <= labels]
         pairs = [
             (problem.sample(claim.better, claim.metric), problem.sample(claim.worse, claim.metric)) for claim in able
         ]
@@ -58,7 +60,7 @@ def judge(published: Published, problems: list[Problem]) -> list[Judged]:
             for claim in told
             if claim not in able
         ]
-        judged += [Judged(claim, problem.name, UNDECIDED, ABSENT) for claim in published.claim if claim not in told]
+        judged += [Judged(claim, problem.name, UNDECIDED, ABSENT) for claim in asked if claim not in told]
     return judged
 
 
