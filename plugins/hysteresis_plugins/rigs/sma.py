@@ -95,7 +95,7 @@ class SmaRig(Rig):
             "martensite_finish": Range(-20.0, -16.0, "degC; a tenth of a per cent of nickel shifts it by 10 K"),
             "martensite_start": Range(15.0, 18.0, "degC; alloy and training"),
             "austenite_start": Range(
-                -1.9, 1.0, "degC; alloy and training; any lower and the cold joint is not at rest"
+                -2.0, 1.0, "degC; alloy and training; any lower and the cold joint is not at rest"
             ),
             "austenite_finish": Range(28.5, 33.0, "degC; alloy and training"),
             "transformation_strain": Range(0.035, 0.043, "what a trained wire strains after many cycles"),
