@@ -126,32 +126,32 @@ def _said(claim: Claim) -> str:
 
 
 def in_words(judged: Sequence[Judged]) -> str:
-    """One sentence: of how many claims the paper's hold, and how far that reaches. Empty without a claim."""
+    """One sentence: which of the paper's claims hold, and how far that reaches. Empty without a claim."""
     papers = [found for found in judged if not found.claim.ablation and found.medians]
     if not papers:
         return ""
-    several = any(found.several for found in papers)
-    where = f"over {papers[0].over}" if several else "in this instance"
-    counts = {verdict: _named(papers, verdict) for verdict in (HOLDS, EQUIVALENT, FAILS, UNDECIDED)}
-    parts = [f"{len(names)} {_clause(verdict, len(names))}" for verdict, names in counts.items() if names]
-    told = f"Of {len(papers)} judgements on the paper’s claims, {where}: {listed(parts)}."
+    over = listed(list(dict.fromkeys(found.over for found in papers)))
     if all(found.p is None for found in papers):
         few = f"{statistics.ENOUGH} instances, or trials of one instance, are needed"
-        return f"The paper’s claims cannot be judged on {papers[0].over}: {few}."
-    return told
+        return f"The paper’s claims cannot be judged on {over}: {few}."
+    where = f"over {over}" if any(found.several for found in papers) else f"in this instance ({over})"
+    holding = [f"{found.claim.says} (“{found.problem}”)" for found in papers if found.verdict == HOLDS]
+    told = f"{len(holding)} of {len(papers)} of the paper’s claims, a claim and problem each, hold {where}"
+    told = f"None of the paper’s {len(papers)} claims, a claim and problem each, holds {where}" if not holding else told
+    rest = [_rest(papers, verdict) for verdict in (EQUIVALENT, FAILS, UNDECIDED)]
+    what = f": {listed(holding, 3)}" if holding else ""
+    return f"{told}{what}; {listed(found)}." if (found := [part for part in rest if part]) else f"{told}{what}."
 
 
-def _named(judged: Sequence[Judged], verdict: str) -> list[str]:
-    return [found.claim.says for found in judged if found.verdict == verdict]
-
-
-def _clause(verdict: str, count: int) -> str:
+def _rest(papers: Sequence[Judged], verdict: str) -> str:
+    """How many ended so, as a clause; empty where none did."""
+    count = sum(found.verdict == verdict for found in papers)
     one = count == 1
-    return {
-        HOLDS: "holds" if one else "hold",
-        FAILS: "is contradicted" if one else "are contradicted",
+    clause = {
         EQUIVALENT: "makes no difference in practice" if one else "make no difference in practice",
+        FAILS: "is contradicted" if one else "are contradicted",
     }.get(verdict, "cannot be told")
+    return f"{count} {clause}" if count else ""
 
 
 def sentences(judged: Sequence[Judged]) -> list[str]:

@@ -8,6 +8,7 @@ from hysteresis_bench import statistics
 from hysteresis_bench.report.shared.blocks import Terms
 from hysteresis_bench.report.shared.page import Section, files_beside
 from hysteresis_bench.report.trials.best_known import EXACT
+from hysteresis_bench.report.trials.latex import TABLES
 from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS
 
 SUCCESS = "A success is a trial whose fitness is within 1 % of the best known to the study on the problem."
@@ -47,6 +48,7 @@ DEFINITIONS = (
 FILES = {
     STUDY: "the study as it was run",
     TRIALS: "one row a trial",
+    TABLES: "the main tables for a paper, LaTeX",
     SUMMARY: "one row an optimizer and problem: every number of the tables",
     RESPONSES: "measured and simulated samples of the best trials",
     PROVENANCE: "versions, machine, settings",

@@ -36,14 +36,14 @@ def at_equal_evaluations(
         f"{SUCCESS} Verdicts compare fitness, each optimizer with the reference, {reference}, and with the best by "
         "median only. Every other number of a row is in summary.csv."
     )
-    tables = [_table(problem, summary) for problem in here]
+    tables = [table(problem, summary) for problem in here]
     return Section("optimizers", "All optimizers at equal evaluations", [Bullets(winners(here, summary)), how, *tables])
 
 
 def at_other_budgets(results: Results) -> Section | None:
     """None where all optimizers have the study's budget."""
     tables = [
-        _table(problem, summarise(results, budget))
+        table(problem, summarise(results, budget))
         for budget in other_budgets(results)
         for problem in problems(results, budget)
     ]
@@ -64,31 +64,32 @@ def at_the_papers_iterations(results: Results, here: Sequence[Problem], count: i
     return Section("iterations", "At the paper’s number of iterations", [how, *tables])
 
 
-def _table(problem: Problem, summary: pd.DataFrame) -> Table:
+def table(problem: Problem, summary: pd.DataFrame) -> Table:
     """Every optimizer at equal evaluations, best median first; verdicts where there are enough blocks."""
     enough = problem.blocks >= statistics.ENOUGH
     here = summary[summary["problem"] == problem.name]
-    rows: list[list[str | Cell]] = []
-    for _, row in here.iterrows():
-        strong = row["optimizer"] in (problem.winner, problem.reference)
-        low, high = row["success_low"], row["success_high"]
-        rows.append(
-            [
-                Cell(row["optimizer"], strong=strong),
-                number(row["fitness_median"]),
-                _relative_rms(row),
-                f"{row['successes']} of {row['counted']} ({100 * low:.0f} to {100 * high:.0f}\u202f%)",
-                whole(row["expected_running_time"]),
-                seconds(row["seconds_median"]),
-                str(row["failed"]) if row["failed"] else NONE,
-                *([*_compared(row, "reference"), *_compared(row, "best")] if enough else []),
-            ]
-        )
-    header = ["Optimizer", "Fitness, median", "Relative RMS", "Success (95 %)", "ERT", "Time", "Failed"]
-    header += ["Against reference", "A12 (95 %)", "Against best", "A12 (95 %)"] if enough else []
+    columns: dict[str, list[str | Cell]] = {
+        "Optimizer": [
+            Cell(label, strong=label in (problem.winner, problem.reference)) for label in map(str, here["optimizer"])
+        ],
+        "Fitness, median": [number(value) for value in here["fitness_median"]],
+        "Relative RMS": [_relative_rms(row) for _, row in here.iterrows()],
+        "Success (95 %)": [_success(row) for _, row in here.iterrows()],
+    }
+    if problem.traces:
+        columns["ERT"] = [whole(value) for value in here["expected_running_time"]]
+    columns["Time"] = [seconds(value) for value in here["seconds_median"]]
+    if here["failed"].any():
+        columns["Failed"] = [str(value) if value else NONE for value in here["failed"]]
+    if enough:
+        columns["Against reference"] = [_verdict(row["verdict_reference"]) for _, row in here.iterrows()]
+        columns["A12 (95 %)"] = [_a12(row) for _, row in here.iterrows()]
+        columns["Against best"] = [_verdict(row["verdict_best"]) for _, row in here.iterrows()]
     same = list(here["optimizer"][here["deterministic"]])
     note = f"Deterministic, counted once an instance: {listed(same, len(same))}. " if same else ""
-    return Table(f"{problem.name}: fitness over {problem.counted}", header, rows, note=f"{note}{_friedman(problem)}")
+    rows = list(zip(*columns.values(), strict=True))
+    title = f"{problem.name}: fitness over {problem.counted}"
+    return Table(title, list(columns), rows, note=f"{note}{_friedman(problem)}")
 
 
 def _relative_rms(row: pd.Series) -> str:
@@ -100,14 +101,20 @@ def _relative_rms(row: pd.Series) -> str:
     )
 
 
-def _compared(row: pd.Series, name: str) -> list[str | Cell]:
-    verdict = row[f"verdict_{name}"]
-    tone = "good" if verdict.startswith("better") else "bad" if verdict.startswith("worse") else "quiet"
-    if pd.isna(row[f"a12_{name}"]):
-        return [Cell(verdict, tone), NONE]
-    shown = "cannot tell" if verdict == statistics.SAME else verdict.removesuffix(" effect)").replace(" (", ", ")
-    interval = f"{share(row[f'a12_{name}'])} ({share(row[f'a12_low_{name}'])} to {share(row[f'a12_high_{name}'])})"
-    return [Cell(shown, tone), interval]
+def _success(row: pd.Series) -> str:
+    low, high = 100.0 * row["success_low"], 100.0 * row["success_high"]
+    return f"{row['successes']} of {row['counted']} ({low:.0f} to {high:.0f}\u202f%)"
+
+
+def _verdict(words: str) -> Cell:
+    tone = "good" if words.startswith("better") else "bad" if words.startswith("worse") else "quiet"
+    return Cell("cannot tell" if words == statistics.SAME else words.removesuffix(" effect)").replace(" (", ", "), tone)
+
+
+def _a12(row: pd.Series) -> str:
+    """Against the reference."""
+    ends = f"({share(row['a12_low_reference'])} to {share(row['a12_high_reference'])})"
+    return NONE if pd.isna(row["a12_reference"]) else f"{share(row['a12_reference'])} {ends}"
 
 
 def _friedman(problem: Problem) -> str:

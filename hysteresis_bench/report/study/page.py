@@ -27,6 +27,7 @@ from hysteresis_bench.report.study import (
     words,
 )
 from hysteresis_bench.report.trials import instances
+from hysteresis_bench.report.trials.latex import write_latex
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.results import Results
@@ -39,6 +40,7 @@ FOLDED = {
     "signals",
     "held-out",
     "claims",
+    "instances",
     "run",
     "audit",
     "decisions",
@@ -50,14 +52,17 @@ CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
 
 
 def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
-    """The whole page; its figures are written to the folder. summary : of summarise(results)
+    """The whole page; its figures, and the main tables for LaTeX, are written to the folder.
 
+    summary : of summarise(results)
     Raises UserError where the published file has faults.
     """
     published = check_published(results.published)
     here, everybody = problems(results), problems(results, any_budget=True)
     judged = claims.judge(published, everybody)
     reference = here[0].reference if here else results.study.reference
+    main = [found for found in (claims.table(judged), *(optimizers.table(each, summary) for each in here)) if found]
+    write_latex(folder, main)
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
 
     parts: list[Part] = [

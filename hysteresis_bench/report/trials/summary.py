@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench import statistics
-from hysteresis_bench.report.trials.best_known import best_known
+from hysteresis_bench.report.trials.best_known import NEAR, best_known
 from hysteresis_bench.report.trials.metrics import TO_SUCCESS
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.study.results import FINISHED, Results
@@ -116,8 +116,10 @@ def _successes(problem: Problem, label: str) -> dict[str, object]:
     if problem.repeats_itself(label):
         counted = ~rows["instance"].duplicated().to_numpy(dtype=bool)
     reached = problem.values(label, TO_SUCCESS)[counted]
+    hits = problem.values(label, "fitness")[counted] <= NEAR * problem.known(label)[counted]
+    hits &= np.isfinite(problem.values(label, "fitness")[counted])
     spent = np.nan_to_num(pd.to_numeric(rows["evaluations"]).to_numpy(dtype=float, na_value=np.nan))[counted]
-    successes, total = int(np.count_nonzero(np.isfinite(reached))), len(reached)
+    successes, total = int(np.count_nonzero(hits)), len(hits)
     instances = rows["instance"].to_numpy(dtype=int)[counted]
     blocks = instances if problem.several else np.arange(total)
     independent = len(np.unique(blocks))
