@@ -9,7 +9,7 @@ import numpy as np
 
 from hysteresis_bench import statistics
 from hysteresis_bench.report.paper.published import Claim, Published
-from hysteresis_bench.report.shared.blocks import Bullets, Cell, Table
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import NONE, listed, p_equals, probability, share
 from hysteresis_bench.report.trials.metrics import TO_SUCCESS, metric_text
@@ -17,6 +17,7 @@ from hysteresis_bench.report.trials.problem import Problem
 
 HOLDS, FAILS, EQUIVALENT, UNDECIDED = "holds", "does not hold", "makes no difference", "cannot tell"
 VERDICTS = {"better": HOLDS, "worse": FAILS, "equivalent": EQUIVALENT}
+CLAIMS, ABLATIONS = "The paper's claims in our trials", "What the parts of the paper's algorithm are worth"
 ABSENT = "the course of the searches was not kept"
 
 
@@ -87,10 +88,12 @@ def section(judged: Sequence[Judged]) -> Section | None:
         "bootstrap over instances. Where a study has one instance, trials that share their first points are the "
         "blocks, and the verdict holds in this instance only."
     )
-    return Section("claims", "The claims in words, and how they are judged", [Bullets(sentences(judged)), how])
+    ablations = table([found for found in judged if found.claim.ablation], ABLATIONS)
+    blocks: list[Block] = [Bullets(sentences(judged)), how, *([ablations] if ablations else [])]
+    return Section("claims", "The claims in words, and how they are judged", blocks)
 
 
-def table(judged: Sequence[Judged]) -> Table | None:
+def table(judged: Sequence[Judged], caption: str = CLAIMS) -> Table | None:
     """A row a claim and problem on which it can be judged; without statistics where there are too few blocks."""
     shown = [found for found in judged if found.medians]
     if not shown:
@@ -110,7 +113,7 @@ def table(judged: Sequence[Judged]) -> Table | None:
     header = ["Claim", "Problem", "Here", "Medians, first : second"]
     header += ["A12 (95 %)", "p", "Equivalent"] if enough else []
     note = "" if enough else f"Too few to test: {statistics.ENOUGH} instances, or trials of one instance, are needed."
-    return Table("The paper's claims in our trials", [*header, "Over"], rows, note)
+    return Table(caption, [*header, "Over"], rows, note)
 
 
 def _statistics(found: Judged) -> list[str | Cell]:
@@ -135,12 +138,19 @@ def in_words(judged: Sequence[Judged]) -> str:
         few = f"{statistics.ENOUGH} instances, or trials of one instance, are needed"
         return f"The paper’s claims cannot be judged on {over}: {few}."
     where = f"over {over}" if any(found.several for found in papers) else f"in this instance ({over})"
+    claims, problems = (
+        len(set(names)) for names in zip(*((each.claim.says, each.problem) for each in papers), strict=True)
+    )
     holding = [f"{found.claim.says} (“{found.problem}”)" for found in papers if found.verdict == HOLDS]
-    told = f"{len(holding)} of {len(papers)} of the paper’s claims, a claim and problem each, hold {where}"
-    told = f"None of the paper’s {len(papers)} claims, a claim and problem each, holds {where}" if not holding else told
-    rest = [_rest(papers, verdict) for verdict in (EQUIVALENT, FAILS, UNDECIDED)]
-    what = f": {listed(holding, 3)}" if holding else ""
-    return f"{told}{what}; {listed(found)}." if (found := [part for part in rest if part]) else f"{told}{what}."
+    rest = [told for verdict in (EQUIVALENT, FAILS, UNDECIDED) if (told := _rest(papers, verdict))]
+    count = f"{len(papers)} judgement{'s' * (len(papers) != 1)}"
+    if not holding:
+        on = f"any of the {problems} problems" if problems > 1 else f"“{papers[0].problem}”"
+        return f"None of the paper’s {claims} claims holds on {on}, {where}: of {count}, {listed(rest)}."
+    hold = f"{len(holding)} hold{'s' * (len(holding) == 1)}: {listed(holding, 3)}"
+    return (
+        f"Of {count} on the paper’s {claims} claims, {where}, {hold}{'; ' * bool(rest)}{listed(rest) if rest else ''}."
+    )
 
 
 def _rest(papers: Sequence[Judged], verdict: str) -> str:

@@ -99,7 +99,7 @@ def _at_a_glance(
     judged: Sequence[claims.Judged], here: Sequence[Problem], looks: Mapping[str, Look], folder: Path
 ) -> list[Block]:
     """What the first screen shows below the answer: the claims, and every trial."""
-    table = claims.table(judged)
+    table = claims.table([found for found in judged if not found.claim.ablation])
     pictures = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in searches.drawable(here)]
     return [*([table] if table else []), *([Figures(pictures)] if pictures else [])]
 
