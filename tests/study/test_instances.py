@@ -1,6 +1,7 @@
 """Instances of a rig: drawn reproducibly, shared by all optimizers, continued without computing anything again."""
 
 import itertools
+import tomllib
 
 import numpy as np
 import pandas as pd
@@ -9,6 +10,8 @@ import pytest
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.study import write_report
 from hysteresis_bench.report.trials.summary import problems
+from hysteresis_bench.study.execution.shards import Shard
+from hysteresis_bench.study.execution.trial import tickets_of
 from hysteresis_bench.study.instances import drawn_constants, ranges_of
 from hysteresis_bench.study.problems import dataset_of
 from hysteresis_bench.study.results import TRIALS, read_results
@@ -87,7 +90,16 @@ def test_an_instance_is_a_block_with_its_own_best_known(ran):
     assert [trials.size for trials in problem.sample("pso").instances] == [2, 2, 2]
     rows = pd.concat(problem.rows.values())
     assert problem.best == rows.groupby("instance")["fitness"].min().to_dict()
-    assert "What differs between instances" in write_report(out).read_text(encoding="utf-8")
+    assert "The rig: which constants were chosen how" in write_report(out).read_text(encoding="utf-8")
+
+
+def test_shards_share_the_trials_of_every_optimizer(tmp_path):
+    study = check_study(tomllib.loads(TEXT.replace("instances = 2", "instances = 6")), "t.toml")
+    tickets = tickets_of(study, tmp_path, 2)
+    assert len({ticket.key for ticket in tickets}) == len(tickets) == 24
+    parts = [Shard(number, 2).of_tickets(tickets) for number in (1, 2)]
+    assert sorted(ticket.key for part in parts for ticket in part) == sorted(ticket.key for ticket in tickets)
+    assert all(sum(ticket.optimizer == "pso" for ticket in part) == 6 for part in parts)
 
 
 def test_a_folder_of_one_instance_is_kept_as_before(tmp_path):
@@ -105,7 +117,7 @@ def test_an_instance_that_cannot_be_simulated_fails_in_its_block(tmp_path):
     path.write_text(impossible.replace("instances = 2", "instances = 4"), encoding="utf-8")
     with pytest.raises(UserError, match=r"martensite_start = 200\.0"):
         run_study(path, jobs=1, out=tmp_path / "none")
-    both = "martensite_start = [17.0, 20.5], austenite_finish = [26.5, 33.0]"
+    both = "martensite_start = [16.0, 20.5], austenite_finish = [26.5, 30.0]"
     path.write_text(TEXT.replace("wire_lag = [2.0, 5.0]", both).replace("instances = 2", "instances = 8"), "utf-8")
     out = run_study(path, jobs=1, out=tmp_path / "out")
     with Store.reading(out) as store:

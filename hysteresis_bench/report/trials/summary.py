@@ -67,14 +67,16 @@ def summarise(results: Results, budget: int | None = None) -> pd.DataFrame:
     budget : of the optimizers that are compared, the study's own without one
     """
     here = problems(results, budget)
-    return pd.DataFrame([_row(problem, label) for problem in here for label in problem.ranked])
+    evaluations = budget or results.study.budget
+    return pd.DataFrame([_row(problem, label, evaluations) for problem in here for label in problem.ranked])
 
 
-def _row(problem: Problem, label: str) -> dict[str, object]:
+def _row(problem: Problem, label: str, budget: int) -> dict[str, object]:
     rows = problem.rows[label]
     row: dict[str, object] = {
         "problem": problem.name,
         "optimizer": label,
+        "budget": budget,
         "instances": rows["instance"].nunique(),
         "trials": len(rows),
         "failed": int((~rows["status"].isin(FINISHED)).sum()),
