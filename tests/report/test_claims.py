@@ -5,6 +5,7 @@ import pandas as pd
 import pytest
 
 from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, UNDECIDED, in_words, judge, sentences, table
+from hysteresis_bench.report.paper.claims_file import write_claims
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.trials.best_known import best_known
 from hysteresis_bench.report.trials.problem import Problem
@@ -67,6 +68,16 @@ def test_nobody_is_faster_where_nobody_arrives():
     found = judged(here, "evaluations_to_success")
     assert found.verdict == UNDECIDED
     assert found.why.startswith("neither comes")
+
+
+def test_the_verdicts_are_kept_for_other_programs(tmp_path):
+    found = judged(problem({"pso": 1.0, "new": 0.8}))
+    write_claims(tmp_path, [found])
+    [row] = pd.read_csv(tmp_path / "claims.csv").to_dict("records")
+    assert (row["verdict"], row["over"], row["a12"]) == (HOLDS, "20 instances", found.a12)
+    assert row["a12_low"] <= row["a12"] <= row["a12_high"]
+    chances = [row[f"probability_{side}"] for side in ("better", "equivalent", "worse")]
+    assert sum(chances) == pytest.approx(1.0)
 
 
 def test_an_ablation_is_asked_by_us_and_left_out_where_it_was_not_run():

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from hysteresis_bench import statistics
+from hysteresis_bench.report.paper.claims_file import CLAIMS
 from hysteresis_bench.report.shared.blocks import Terms
 from hysteresis_bench.report.shared.page import Section, files_beside
 from hysteresis_bench.report.trials.best_known import EXACT
@@ -62,6 +63,7 @@ DEFINITIONS = (
 FILES = {
     STUDY: "the study as it was run",
     TRIALS: "one row a trial",
+    CLAIMS: "the verdicts on the paper’s claims",
     TABLES: "the main tables for a paper, LaTeX",
     SUMMARY: "one row an optimizer and problem: every number of the tables",
     RESPONSES: "measured and simulated samples of the best trials",

@@ -9,6 +9,7 @@ import pandas as pd
 
 from hysteresis_bench.errors import told
 from hysteresis_bench.report.paper import audit, beside, claims, decisions
+from hysteresis_bench.report.paper.claims_file import write_claims
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches import section as searches
 from hysteresis_bench.report.searches.figures import all_trials
@@ -52,7 +53,7 @@ CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
 
 
 def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
-    """The whole page; its figures, and the main tables for LaTeX, are written to the folder.
+    """The whole page; its figures, the verdicts on claims, and the main tables for LaTeX are written to the folder.
 
     summary : of summarise(results)
     Raises UserError where the published file has faults.
@@ -63,6 +64,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     reference = here[0].reference if here else results.study.reference
     main = [found for found in (claims.table(judged), *(optimizers.table(each, summary) for each in here)) if found]
     write_latex(folder, main)
+    write_claims(folder, judged)
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
 
     parts: list[Part] = [
