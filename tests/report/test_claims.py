@@ -10,6 +10,7 @@ from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.trials.best_known import best_known
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import _successes
+from hysteresis_bench.report.trials.targets import section
 
 RNG = np.random.default_rng(3)
 
@@ -110,3 +111,14 @@ def test_success_is_counted_against_the_best_of_the_whole_study():
     alone = Problem("p", here.labels, here.rows, here.traces, "pso", known)
     assert _successes(here, "pso")["successes"] == 20  # without noise it repeats itself
     assert _successes(alone, "pso")["successes"] == 0
+
+
+def test_other_targets_and_budgets_are_what_one_counts_by_hand():
+    here = problem({"pso": 1.0, "new": 1.0}, instances=2, trials=2, noise=0.0)
+    here.rows["pso"]["fitness"] *= 1.02
+    for key in here.keys("pso"):
+        here.traces["pso", *key][1][1] *= 1.02
+    [rows] = [block.rows for block in section([here], 100).blocks if not isinstance(block, str)]
+    found = {row[0]: row[1:] for row in rows}
+    assert found["new"] == ["100\u202f%"] * 4 + ["100"] * 3 + ["9"] * 2 + ["1"]
+    assert found["pso"] == ["0\u202f%"] * 2 + ["100\u202f%"] * 2 + ["not reached", "100", "100", "9", "9", "1.02"]

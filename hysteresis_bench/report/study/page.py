@@ -27,7 +27,7 @@ from hysteresis_bench.report.study import (
     signals,
     words,
 )
-from hysteresis_bench.report.trials import instances
+from hysteresis_bench.report.trials import instances, targets
 from hysteresis_bench.report.trials.latex import write_latex
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import problems
@@ -36,6 +36,7 @@ from hysteresis_bench.study.results import Results
 Part = Callable[[], Section | None]
 FOLDED = {
     "budgets",
+    "targets",
     "iterations",
     "searches",
     "signals",
@@ -71,6 +72,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
         lambda: beside.section(published, results, everybody),
         lambda: optimizers.at_equal_evaluations(here, summary, reference, looks=looks, folder=folder),
         lambda: optimizers.at_other_budgets(results),
+        lambda: targets.section(here, results.study.budget),
         lambda: optimizers.at_the_papers_iterations(results, here, published.iterations),
         lambda: searches.section(results, here, published.optimizers, looks=looks, folder=folder),
         lambda: signals.section(results, here, published.optimizers, looks=looks, folder=folder),
