@@ -73,7 +73,7 @@ def optimizers(study: str, problem: str, first: int = 6, also: tuple[str, ...] =
         [
             (
                 f"`{name}`",
-                f"{row['successes']} of {row['trials']}",
+                f"{row['successes']} of {row.get('counted', row['trials'])}",
                 f"{row['relative_rms_median']:.4g}",
                 f"{row['expected_running_time']:.0f}" if row["successes"] else "none succeeded",
                 f"{row['seconds_median']:.2g}",

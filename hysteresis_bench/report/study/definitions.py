@@ -21,7 +21,8 @@ DEFINITIONS = (
         "Instance",
         "The rig with its constants, drive and noise: the first as it stands, others drawn, the same for everybody. "
         "Where there are several, an instance is a block: medians and quartiles are over instances of the medians of "
-        "their trials. Where there is one, its trials are the blocks, and what is found holds in it alone.",
+        "their trials. Where there is one, its trials are the blocks, and what is found holds in it alone. "
+        "Signals, stages and what the data determine are told of the first.",
     ),
     (
         "Success",
