@@ -122,3 +122,11 @@ def test_other_targets_and_budgets_are_what_one_counts_by_hand():
     found = {row[0]: row[1:] for row in rows}
     assert found["new"] == ["100\u202f%"] * 4 + ["100"] * 3 + ["9"] * 2 + ["1"]
     assert found["pso"] == ["0\u202f%"] * 2 + ["100\u202f%"] * 2 + ["not reached", "100", "100", "9", "9", "1.02"]
+
+
+def test_an_optimizer_that_has_fewer_instances_is_compared_on_those():
+    here = problem({"pso": 1.0, "new": 0.8}, instances=3, trials=20)
+    here.rows["new"] = here.rows["new"][here.rows["new"]["instance"] == 1]
+    assert (here.several, here.counted) == (False, "20 trials")
+    assert [side.size for side in here.sample("pso").instances] == [20]
+    assert judged(here).over == "20 trials"

@@ -104,12 +104,8 @@ def table(judged: Sequence[Judged], caption: str = CLAIMS) -> Table | None:
         assert found.medians
         tone = {HOLDS: "good", FAILS: "bad"}.get(found.verdict, "quiet")
         medians = " : ".join(metric_text(found.claim.metric, median) for median in found.medians)
-        row: list[str | Cell] = [
-            Cell(_said(found.claim), "claim"),
-            found.problem,
-            Cell(found.verdict, tone, strong=True),
-        ]
-        rows.append([*row, medians, *(_statistics(found) if enough else []), found.over])
+        row: list[str | Cell] = [_said(found.claim), found.problem, Cell(found.verdict, tone, strong=True), medians]
+        rows.append([*row, *(_statistics(found) if enough else []), found.over])
     header = ["Claim", "Problem", "Here", "Medians, first : second"]
     header += ["A12 (95 %)", "p", "Equivalent"] if enough else []
     note = "" if enough else f"Too few to test: {statistics.ENOUGH} instances, or trials of one instance, are needed."

@@ -53,8 +53,8 @@ class Problem:
 
     @property
     def several(self) -> bool:
-        """Whether what is found holds beyond one instance."""
-        return len(self.instances) > 1
+        """Whether what is found holds beyond one instance: all optimizers have several."""
+        return len({instance for instance, _ in self.trials}) > 1
 
     @property
     def blocks(self) -> int:
@@ -90,11 +90,11 @@ class Problem:
         return np.divide(floor, known, out=floor.copy(), where=usable)
 
     def per_block(self, label: str, values: Array) -> Array:
-        """(blocks,): the medians of the instances, or the trials of a single one; values : (trials,)"""
-        if not self.several:
-            return values
+        """(blocks,): the medians of the instances that it has, or the trials of a single one; values : (trials,)"""
         instances = self.rows[label]["instance"].to_numpy(dtype=int)
-        medians: Array = np.array([np.median(values[instances == number]) for number in np.unique(instances)])
+        if (numbers := np.unique(instances)).size == 1:
+            return values
+        medians: Array = np.array([np.median(values[instances == number]) for number in numbers])
         return medians
 
     def middle(self, label: str, metric: str) -> float:

@@ -123,7 +123,7 @@ def _successes(problem: Problem, label: str) -> dict[str, object]:
     spent = np.nan_to_num(pd.to_numeric(rows["evaluations"]).to_numpy(dtype=float, na_value=np.nan))[counted]
     successes, total = int(np.count_nonzero(hits)), len(hits)
     instances = rows["instance"].to_numpy(dtype=int)[counted]
-    blocks = instances if problem.several else np.arange(total)
+    blocks = instances if np.unique(instances).size > 1 else np.arange(total)
     independent = len(np.unique(blocks))
     low, high = statistics.wilson(successes / total * independent, independent)
     charged = np.where(np.isfinite(reached), reached, spent)
