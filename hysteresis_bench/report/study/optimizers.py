@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 import pandas as pd
 
 from hysteresis_bench import statistics
-from hysteresis_bench.report.searches.looks import Look
-from hysteresis_bench.report.shared.blocks import Bullets, Cell, Table
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import (
     NONE,
@@ -21,6 +19,7 @@ from hysteresis_bench.report.shared.text import (
     share,
     whole,
 )
+from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.study.definitions import SUCCESS
 from hysteresis_bench.report.study.words import winners
 from hysteresis_bench.report.trials.problem import Problem
@@ -29,15 +28,16 @@ from hysteresis_bench.study.results import Results
 
 
 def at_equal_evaluations(
-    here: Sequence[Problem], summary: pd.DataFrame, reference: str, *, looks: Mapping[str, Look], folder: Path
+    here: Sequence[Problem], summary: pd.DataFrame, reference: str, pictures: Sequence[Picture]
 ) -> Section:
-    """Who won, and every optimizer in a table."""
+    """Who won, and every optimizer in a table. pictures : of all trials, of problems that have none elsewhere"""
     how = (
         f"{SUCCESS} Verdicts compare fitness, each optimizer with the reference, {reference}, and with the best by "
         "median only. Every other number of a row is in summary.csv."
     )
     tables = [table(problem, summary) for problem in here]
-    return Section("optimizers", "All optimizers at equal evaluations", [Bullets(winners(here, summary)), how, *tables])
+    blocks: list[Block] = [Bullets(winners(here, summary)), *([Figures(pictures)] if pictures else []), how, *tables]
+    return Section("optimizers", "All optimizers at equal evaluations", blocks)
 
 
 def at_other_budgets(results: Results) -> Section | None:

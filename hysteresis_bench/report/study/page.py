@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -13,9 +13,10 @@ from hysteresis_bench.report.paper.claims_file import write_claims
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches import section as searches
 from hysteresis_bench.report.searches.figures import all_trials
-from hysteresis_bench.report.searches.looks import Look, choose, floors
+from hysteresis_bench.report.searches.looks import choose, floors
 from hysteresis_bench.report.shared.blocks import Block, Details, Figures
 from hysteresis_bench.report.shared.page import Page, Section
+from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.stages import section as stages
 from hysteresis_bench.report.study import (
     closing_section,
@@ -29,7 +30,6 @@ from hysteresis_bench.report.study import (
 )
 from hysteresis_bench.report.trials import instances, targets
 from hysteresis_bench.report.trials.latex import write_latex
-from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.results import Results
 
@@ -49,6 +49,8 @@ FOLDED = {
     "definitions",
 }
 """Anchors of the sections that are folded away."""
+FIRST_SCREEN = 2
+"""Pictures beside the answer: of the problems with the most optimizers."""
 CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
 """What a table or an object raises that has not the content it was written with."""
 
@@ -67,10 +69,12 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     write_latex(folder, main)
     write_claims(folder, judged)
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
+    drawn = sorted(searches.drawable(here), key=lambda each: -len(each[1].labels))
+    pictures = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in drawn]
 
     parts: list[Part] = [
         lambda: beside.section(published, results, everybody),
-        lambda: optimizers.at_equal_evaluations(here, summary, reference, looks=looks, folder=folder),
+        lambda: optimizers.at_equal_evaluations(here, summary, reference, pictures[FIRST_SCREEN:]),
         lambda: optimizers.at_other_budgets(results),
         lambda: targets.section(here, results.study.budget),
         lambda: optimizers.at_the_papers_iterations(results, here, published.iterations),
@@ -92,19 +96,16 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
         results.study.title,
         "hysteresis-bench study",
         [_folded(section) if section.anchor in FOLDED else section for section in sections],
-        [*words.answer(here, summary, judged), *how_it_closed(results), *_at_a_glance(judged, here, looks, folder)],
+        [*words.answer(here, summary, judged), *how_it_closed(results), *_at_a_glance(judged, pictures[:FIRST_SCREEN])],
         warnings=[*results.damages, *damages],
         warned="What is not here",
         contents=True,
     )
 
 
-def _at_a_glance(
-    judged: Sequence[claims.Judged], here: Sequence[Problem], looks: Mapping[str, Look], folder: Path
-) -> list[Block]:
+def _at_a_glance(judged: Sequence[claims.Judged], pictures: Sequence[Picture]) -> list[Block]:
     """What the first screen shows below the answer: the claims, and every trial."""
     table = claims.table([found for found in judged if not found.claim.ablation])
-    pictures = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in searches.drawable(here)]
     return [*([table] if table else []), *([Figures(pictures)] if pictures else [])]
 
 
