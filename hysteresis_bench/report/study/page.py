@@ -55,8 +55,19 @@ CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
 """What a table or an object raises that has not the content it was written with."""
 
 
+def write_tables(results: Results, summary: pd.DataFrame, folder: Path) -> None:
+    """The verdicts on claims as CSV, and the main tables for LaTeX. summary : of summarise(results)
+
+    Raises UserError where the published file has faults.
+    """
+    judged = claims.judge(check_published(results.published), problems(results, any_budget=True))
+    main = [claims.table(judged), *(optimizers.table(problem, summary) for problem in problems(results))]
+    write_latex(folder, [table for table in main if table])
+    write_claims(folder, judged)
+
+
 def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
-    """The whole page; its figures, the verdicts on claims, and the main tables for LaTeX are written to the folder.
+    """The whole page; its figures are written to the folder.
 
     summary : of summarise(results)
     Raises UserError where the published file has faults.
@@ -65,9 +76,6 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     here, everybody = problems(results), problems(results, any_budget=True)
     judged = claims.judge(published, everybody)
     reference = here[0].reference if here else results.study.reference
-    main = [found for found in (claims.table(judged), *(optimizers.table(each, summary) for each in here)) if found]
-    write_latex(folder, main)
-    write_claims(folder, judged)
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
     drawn = sorted(searches.drawable(here), key=lambda each: -len(each[1].labels))
     pictures = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in drawn]
