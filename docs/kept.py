@@ -45,6 +45,25 @@ def verdict(study: str, problem: str, optimizer: str) -> str:
     return str(summary(study, problem).at[optimizer, "verdict_reference"])
 
 
+def claims(study: str) -> str:
+    """A table of a paper's claims and of our ablations: verdict, A12, probability that both are equivalent."""
+    rows = pd.read_csv(RESULTS / study / "claims.csv")
+    return table(
+        ["claim", "problem", "verdict", "A12 (95 %)", "equivalent", "over"],
+        [
+            (
+                row["claim"],
+                row["problem"],
+                f"**{row['verdict']}**",
+                f"{row['a12']:.2f} ({row['a12_low']:.2f} to {row['a12_high']:.2f})",
+                f"{row['probability_equivalent']:.2f}",
+                row["over"],
+            )
+            for _, row in rows.iterrows()
+        ],
+    )
+
+
 def optimizers(study: str, problem: str, first: int = 6, also: tuple[str, ...] = ()) -> str:
     """A table of the first few optimizers, and of those named."""
     rows = summary(study, problem)
@@ -54,7 +73,7 @@ def optimizers(study: str, problem: str, first: int = 6, also: tuple[str, ...] =
         [
             (
                 f"`{name}`",
-                f"{row['successes']} of {row['trials']}",
+                f"{row['successes']} of {row.get('counted', row['trials'])}",
                 f"{row['relative_rms_median']:.4g}",
                 f"{row['expected_running_time']:.0f}" if row["successes"] else "none succeeded",
                 f"{row['seconds_median']:.2g}",

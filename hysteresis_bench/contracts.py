@@ -238,11 +238,22 @@ class Optimizer(ABC):
         return None
 
 
+@dataclass(frozen=True)
+class Range:
+    """Within which a constant differs from one specimen or set-up to the next, and why so."""
+
+    lower: float
+    upper: float
+    why: str
+
+
 class Rig(ABC):
     """A virtual test bench: a physical simulation that is the ground truth, never the model under test."""
 
     experiments: ClassVar[dict[str, str]]
     """Name and one-line description of what can be measured."""
+    ranges: ClassVar[Mapping[str, Range]] = MappingProxyType({})
+    """Settings that are drawn where a study asks for several instances, with the drive's among them."""
 
     @abstractmethod
     def measure(self, experiment: str, rng: Generator) -> Dataset:

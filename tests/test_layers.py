@@ -19,7 +19,7 @@ FLOORS = [
     ["study"],
     ["control", "inspection", "export"],
     ["fit"],
-    ["stats"],
+    ["statistics"],
     ["compose"],
     ["registry"],
     ["declarations"],

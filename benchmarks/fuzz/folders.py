@@ -207,7 +207,7 @@ def cases(given: Any) -> None:
     write_diagnosis_study_page(folder)
 
 
-TRIED = ("finished", "sma", "pea", "gma_swarms")
+TRIED = ("finished", "sma", "pea", "gma_instances")
 TARGETS = (
     Target("results folders, read", damages(TRIED), read, 10),
     Target("results folders, reported", damages(("finished",)), report, 1),

@@ -24,6 +24,7 @@ DONE, FAILED_TRIALS = 0, 1
 @click.command()
 @click.argument("study", type=click.Path(path_type=Path))
 @click.option("--trials", type=click.IntRange(min=1), help="Trials of every optimizer; default: the study file's.")
+@click.option("--instances", type=click.IntRange(min=1), help="Instances of every rig; default: the study file's.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Worker processes; default: all cores.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Results folder; default: runs/NAME.")
 @click.option("--retry", is_flag=True, help="Do again what was killed from outside, ran out of memory or never began.")
@@ -33,6 +34,7 @@ DONE, FAILED_TRIALS = 0, 1
 def run(
     study: Path,
     trials: int | None,
+    instances: int | None,
     jobs: int | None,
     out: Path | None,
     retry: bool,
@@ -54,8 +56,9 @@ def run(
     folder = out or default_folder(study, part)
     check_results(folder, force)
     if is_diagnosis_study(study):
-        if retry or scheduler or shard:
-            raise UserError(str(study), "is a study of diagnosis: it has no --retry, --scheduler or --shard.")
+        if retry or scheduler or shard or instances:
+            none = "is a study of diagnosis: it has no --retry, --scheduler, --shard or --instances."
+            raise UserError(str(study), none)
         sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
     check_published_beside(study)
     reached = [Progress(0, 0, None)]
@@ -70,7 +73,7 @@ def run(
             reached[-1] = progress
             on_progress(progress)
 
-        options = RunOptions(retry, scheduler, part)
+        options = RunOptions(retry, scheduler, part, instances)
         run_with_diagnosis(study, trials=trials, jobs=jobs, out=folder, options=options, on_progress=keep)
     if part:
         say_path(console, f"{kept()}; for `merge`, part {part}", folder)
@@ -89,8 +92,10 @@ def _report(results: Results, console: Console) -> int:
     page = write_report(results.folder)
     print_summary(results, console)
     failed = results.trials[~results.trials["status"].isin(FINISHED)]
+    several = results.trials["instance"].nunique() > 1
     for row in failed.itertuples():
-        told = f"{row.problem} · {row.optimizer} · trial {row.trial}: {row.status}: {row.reason}"
+        which = f"instance {row.instance} · trial {row.trial}" if several else f"trial {row.trial}"
+        told = f"{row.problem} · {row.optimizer} · {which}: {row.status}: {row.reason}"
         console.print(told, highlight=False, markup=False)
     for told in results.mixed:
         console.print(told, highlight=False, markup=False)

@@ -13,8 +13,8 @@ from pathlib import Path
 from hysteresis_bench import registry
 from hysteresis_bench.study.study_file import OptimizerSpec, ProblemSpec, Study
 
-Trial = tuple[str, str, int]
-"""problem, optimizer, number"""
+Trial = tuple[str, str, int, int]
+"""problem, optimizer, instance, number"""
 PACKAGES = ("hysteresis-bench", "numpy", "scipy", "numba", "nlopt", "pymoo", "pandas", "matplotlib")
 
 

@@ -18,6 +18,8 @@ from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.seeds import generator
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Dataset, joined
+from hysteresis_bench.study.instances import drawn_constants, instance_key
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.study_file import ProblemSpec, Study
 
 SETTLING_REPEATS = 3
@@ -32,9 +34,9 @@ class Built:
     dataset: Dataset
 
 
-def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
+def build_problem(spec: ProblemSpec, seed: int, folder: Path, instance: int = FIRST) -> Built:
     """folder : where relative data files are looked for. Raises UserError for what the data make impossible."""
-    dataset = dataset_of(spec, seed, folder)
+    dataset = dataset_of(spec, seed, folder, instance)
     system = build_system(spec.model, spec.settings, effects=spec.effects, fixed=spec.fixed)
     faults = inapplicable(system, dataset) + [f"fixed {reason}" for reason in system.refusals()]
     boxes = system.box(dataset.fitted) if spec.box == "data" else system.parameters
@@ -44,9 +46,10 @@ def build_problem(spec: ProblemSpec, seed: int, folder: Path) -> Built:
     return Built(Problem(system, dataset.fitted, Space(parameters), LOSSES[spec.loss]), dataset)
 
 
-def dataset_of(spec: ProblemSpec, seed: int, folder: Path) -> Dataset:
-    """What is fitted and what is held out, as the problem prepares it. Raises UserError where nothing is left."""
-    dataset = _of_rig(spec, seed) if spec.rig else _read(spec, folder)
+def dataset_of(spec: ProblemSpec, seed: int, folder: Path, instance: int = FIRST) -> Dataset:
+    """What is fitted and what is held out, as the problem prepares it. Raises UserError where nothing is left,
+    ValueError where the constants of an instance make no rig."""
+    dataset = _of_rig(spec, seed, instance) if spec.rig else _read(spec, folder)
     if spec.skip is not None:
         preparation = Preparation(skip=spec.skip)
         if faults := preparation.faults(dataset.records):
@@ -103,10 +106,11 @@ def measure(rig: Rig, experiments: Sequence[str], *key: object) -> Dataset:
     return joined(*(rig.measure(name, generator(*key, name)) for name in experiments))
 
 
-def _of_rig(spec: ProblemSpec, seed: int) -> Dataset:
+def _of_rig(spec: ProblemSpec, seed: int, instance: int) -> Dataset:
     assert spec.rig is not None
-    rig = registry.build("rigs", spec.rig, spec.rig_settings)
-    fitted, held_out = (measure(rig, names, seed, spec.rig) for names in (spec.fitted, spec.held_out))
+    rig = registry.build("rigs", spec.rig, {**spec.rig_settings, **drawn_constants(spec, seed, instance)})
+    key = (seed, spec.rig, *instance_key(instance))
+    fitted, held_out = (measure(rig, names, *key) for names in (spec.fitted, spec.held_out))
     return joined(fitted, held_out).split(held_out.names)
 
 

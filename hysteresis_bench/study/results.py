@@ -17,7 +17,7 @@ from hysteresis_bench.study.kept_files.json_forms import check_provenance
 from hysteresis_bench.study.kept_files.reader import Reader
 from hysteresis_bench.study.kept_files.trial_rows import FINISHED as FINISHED
 from hysteresis_bench.study.kept_files.trial_rows import STATUSES as STATUSES
-from hysteresis_bench.study.kept_files.trial_rows import check_rows
+from hysteresis_bench.study.kept_files.trial_rows import check_rows, with_instances
 from hysteresis_bench.study.origin import Trial, mixed
 from hysteresis_bench.study.store import COLUMNS, DAMAGED, FILE, Store
 from hysteresis_bench.study.study_file import Study, read_study
@@ -37,12 +37,12 @@ class Results:
     published : the paper's tables and claims as parsed TOML, empty without
     provenance : versions, machine, and for every optimizer label its plugin, settings, summary and
         evaluations_per_iteration (an integer or null)
-    trials : one row a trial with the columns of trials.csv, ordered by problem, optimizer, trial
-    traces : (problem, optimizer, trial) -> best-so-far trace, of trials that have a result
-    responses : problem, optimizer, record, role (fitted or held-out), time, input, output, simulated;
-        for the best trial of every optimizer on every problem, and for what was staged (problem: the stage's name)
+    trials : one row a trial with the columns of trials.csv, ordered by problem, optimizer, instance, trial
+    traces : (problem, optimizer, instance, trial) -> best-so-far trace, of trials that have a result
+    responses : problem, optimizer, record, role (fitted or held-out), time, input, output, simulated; of the first
+        instance, for the best trial of every optimizer on every problem, and for what was staged (problem: its name)
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
-        of all trials, or its "fault"
+        of all trials of the first instance, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
     origins : what every trial was made with: package versions, the processor; where the store is kept
     damages : sentences on what could not be read
@@ -116,10 +116,12 @@ def _trials(
                 return trials, traces, origins
         except DAMAGED as error:
             reader.said(FILE, error)
-    trials = reader.csv(TRIALS, COLUMNS, check_rows)
+    columns = [name for name in COLUMNS if name != "instance"]
+    trials = reader.csv(TRIALS, columns, lambda table: check_rows(with_instances(table)))
     if trials.empty:
         return pd.DataFrame(columns=list(COLUMNS)), {}, {}
+    trials = with_instances(trials)
     reader.damages.append(
         f"The course of the searches is not kept here ({FILE}): trials are told from {TRIALS}, without convergence."
     )
-    return trials.astype({"reason": str}).assign(reason=trials["reason"].fillna("")), {}, {}
+    return trials.assign(reason=trials["reason"].astype(object).fillna("").astype(str)), {}, {}

@@ -12,7 +12,6 @@ import pandas as pd
 
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError, told
-from hysteresis_bench.fit.seeds import seed_of
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
 from hysteresis_bench.study.afterwards.stages import run_stages
@@ -24,9 +23,9 @@ from hysteresis_bench.study.execution.trial import (
     needs_own_process,
     prepare_trial,
     rehearsals,
-    seed_key,
     tickets_of,
 )
+from hysteresis_bench.study.kept_files.trial_rows import FIRST, as_kept
 from hysteresis_bench.study.lock import alone, write_whole
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.provenance import describe
@@ -42,11 +41,20 @@ class RunOptions:
     retry : do again what failed by the machine's fault: trials killed from outside, out of memory, or not started
     scheduler : the address of a Dask scheduler whose workers run the trials, instead of processes here
     shard : run this part of the trials only, into a folder of its own
+    instances : overrides the number of every problem on a rig
     """
 
     retry: bool = False
     scheduler: str | None = None
     shard: Shard | None = None
+    instances: int | None = None
+
+    def study(self, study: Study) -> Study:
+        """With the number of instances that was asked for."""
+        if self.instances is None:
+            return study
+        specs = [spec.model_copy(update={"instances": None}) for spec in study.problem]
+        return study.model_copy(update={"instances": self.instances, "problem": specs})
 
 
 @dataclass(frozen=True)
@@ -80,8 +88,9 @@ def run_study(
     Raises UserError for a fault in the file, the data, or the folder.
     """
     path = Path(path)
-    study, text = read_study(path)
     options = options or RunOptions()
+    study, text = read_study(path)
+    study = options.study(study)
     folder = Path(out) if out else default_folder(path, options.shard)
     built = {spec.name: build_problem(spec, study.seed, path.parent) for spec in study.problem}
     if study.closing:
@@ -104,9 +113,10 @@ def run_study(
                 done += 1
                 on_progress(Progress(done, len(tickets), outcome))
             table, traces = store.table(), store.traces()
-        write_table(folder / TRIALS, table)
+        write_table(folder / TRIALS, as_kept(table))
     if options.shard:
         return folder
+    table = table[table["instance"] == FIRST]  # what follows the trials is told of the rig as it stands
     staged, staged_responses = run_stages(study, table, built, folder=path.parent)
     if study.stage:
         write_table(folder / STAGES, staged)
@@ -143,5 +153,4 @@ def _outcomes(study: Study, missing: Sequence[Ticket], jobs: int | None, schedul
     work = Work(prepare_trial, study.timeout, rehearsals(missing), needs_own_process)
     with Cluster(work, scheduler) if scheduler else Pool(work, jobs or os.cpu_count() or 1) as workers:
         for ticket, outcome, status, reason in workers.run(missing):
-            seed = seed_of(*seed_key(study, ticket))[:16]
-            yield outcome or Outcome(*ticket.key, seed=seed, status=status, reason=reason)
+            yield outcome or ticket.ended(study, status, reason)

@@ -16,7 +16,8 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.study.kept_files.trial_rows import KEY, check_rows
+from hysteresis_bench.study.kept_files.trial_rows import FIRST, KEY, check_rows
+from hysteresis_bench.study.origin import Trial
 
 FILE = "trials.sqlite"
 
@@ -37,13 +38,20 @@ COLUMNS = (
     "held_out_rmse",
     "seconds",
 )
-"""Columns of trials.csv; parameter.NAME columns follow."""
+"""Columns of a table of trials; parameter.NAME columns follow."""
+
+TRIALS = f"""trials (
+    problem TEXT, optimizer TEXT, trial INTEGER, seed TEXT, status TEXT, reason TEXT,
+    evaluations INTEGER, fitness REAL, rmse REAL, relative_rms REAL, max_error REAL,
+    held_out_rmse REAL, seconds REAL, parameters TEXT, trace BLOB, origin TEXT, instance INTEGER DEFAULT {FIRST},
+    PRIMARY KEY ({", ".join(KEY)}))"""
 
 
 @dataclass(frozen=True)
 class Outcome:
     """One finished trial. Absent numbers are None: a trial that failed has no fitness.
 
+    instance : of the problem, counted from 1
     origin : the package versions and the processor it was made with, see provenance.origin; "" where nobody knows
     """
 
@@ -63,10 +71,11 @@ class Outcome:
     parameters: dict[str, float] = field(default_factory=dict)
     trace: Trace | None = None
     origin: str = ""
+    instance: int = FIRST
 
     @property
-    def key(self) -> tuple[str, str, int]:
-        return self.problem, self.optimizer, self.trial
+    def key(self) -> Trial:
+        return self.problem, self.optimizer, self.instance, self.trial
 
 
 class Store:
@@ -77,16 +86,8 @@ class Store:
         self._connection.execute("PRAGMA journal_mode = WAL")
         # a kill loses nothing; a power cut may take the last trials, which are run again
         self._connection.execute("PRAGMA synchronous = NORMAL")
-        self._connection.executescript(
-            """
-            CREATE TABLE IF NOT EXISTS study (title TEXT NOT NULL);
-            CREATE TABLE IF NOT EXISTS trials (
-                problem TEXT, optimizer TEXT, trial INTEGER, seed TEXT, status TEXT, reason TEXT,
-                evaluations INTEGER, fitness REAL, rmse REAL, relative_rms REAL, max_error REAL,
-                held_out_rmse REAL, seconds REAL, parameters TEXT, trace BLOB, origin TEXT,
-                PRIMARY KEY (problem, optimizer, trial));
-            """
-        )
+        self._connection.execute("CREATE TABLE IF NOT EXISTS study (title TEXT NOT NULL)")
+        self._connection.execute(f"CREATE TABLE IF NOT EXISTS {TRIALS}")
 
     @classmethod
     def reading(cls, folder: Path) -> Store:
@@ -102,10 +103,17 @@ class Store:
         self._connection.close()
 
     def begin(self, title: str) -> None:
-        """Name the study that the trials belong to. A store of an older version learns to keep origins."""
+        """Name the study that the trials belong to. A store of an older version learns to keep origins and instances:
+        its trials are of the first one."""
         with self._connection:
-            if "origin" not in self._columns():
-                self._connection.execute("ALTER TABLE trials ADD COLUMN origin TEXT")
+            self._connection.execute("BEGIN")
+            if not {"origin", "instance"} <= (there := self._columns()):
+                self._connection.execute("ALTER TABLE trials RENAME TO older")
+                self._connection.execute(f"CREATE TABLE {TRIALS}")
+                names = ", ".join(sorted(there))
+                copied = f"INSERT INTO trials ({names}) SELECT {names} FROM older ORDER BY rowid"
+                self._connection.execute(copied)
+                self._connection.execute("DROP TABLE older")
             self._connection.execute("DELETE FROM study")
             self._connection.execute("INSERT INTO study VALUES (?)", (title,))
 
@@ -129,9 +137,9 @@ class Store:
         with self._connection:
             self._connection.executemany(f"INSERT INTO trials ({', '.join(names)}) VALUES ({marks})", rows)
 
-    def keys(self) -> set[tuple[str, str, int]]:
-        """(problem, optimizer, trial) of every trial that is there."""
-        return set(self._connection.execute("SELECT problem, optimizer, trial FROM trials"))
+    def keys(self) -> set[Trial]:
+        """Of every trial that is there."""
+        return set(self._connection.execute(f"SELECT {self._key()} FROM trials"))
 
     def forget(self, statuses: Collection[str]) -> int:
         """Take out the trials that ended so, and tell how many: they are missing then, and are run again."""
@@ -142,36 +150,42 @@ class Store:
     def outcomes(self) -> Iterator[Outcome]:
         """Every trial as it was added."""
         origin = "origin" if "origin" in self._columns() else "''"
-        names = [*COLUMNS[1:], "parameters", "trace", origin]
+        names = [self._key(), *COLUMNS[1 + len(KEY) :], "parameters", "trace", origin]
         for row in self._connection.execute(f"SELECT {', '.join(names)} FROM trials"):
             *numbers, parameters, trace, made_by = row
             known = dict(zip(COLUMNS[1:], numbers, strict=True))
             trace = _unpacked(trace) if trace else None
             yield Outcome(**known, parameters=json.loads(parameters), trace=trace, origin=made_by or "")
 
-    def origins(self) -> dict[tuple[str, str, int], Mapping[str, str]]:
+    def origins(self) -> dict[Trial, Mapping[str, str]]:
         """What every trial was made with, see origin.origin, in the order they came; without those nobody knows it of.
 
         Raises ValueError for what no trial was made with.
         """
         if "origin" not in self._columns():
             return {}
-        query = "SELECT problem, optimizer, trial, origin FROM trials WHERE origin != '' ORDER BY rowid"
+        query = f"SELECT {self._key()}, origin FROM trials WHERE origin != '' ORDER BY rowid"
         found = {tuple(key): json.loads(text) for *key, text in self._connection.execute(query)}
         if not all(isinstance(made_with, dict) for made_with in found.values()):
             raise ValueError("an origin is no object")
         return found
 
+    def _key(self) -> str:
+        """KEY as columns; a store of an older version has the first instance of everything."""
+        older = "instance" not in self._columns()
+        return ", ".join(f"{FIRST} AS instance" if older and name == "instance" else name for name in KEY)
+
     def _columns(self) -> set[str]:
         return {row[1] for row in self._connection.execute("PRAGMA table_info(trials)")}
 
     def table(self) -> pd.DataFrame:
-        """One row a trial: COLUMNS, then parameter.NAME; ordered by problem, optimizer, trial.
+        """One row a trial: COLUMNS, then parameter.NAME; ordered by problem, optimizer, instance, trial.
 
         Raises ValueError for a row that no trial has left.
         """
         title = next(iter(self._connection.execute("SELECT title FROM study")), ("",))[0]
-        query = "SELECT * FROM trials ORDER BY problem, optimizer, trial"
+        columns = (self._key(), *COLUMNS[1 + len(KEY) :], "parameters")
+        query = f"SELECT {', '.join(columns)} FROM trials ORDER BY {', '.join(KEY)}"
         frame = pd.read_sql_query(query, self._connection)
         parameters = [json.loads(text) for text in frame["parameters"]]
         names = list(dict.fromkeys(name for values in parameters for name in values))
@@ -184,9 +198,9 @@ class Store:
         check_rows(table)
         return table
 
-    def traces(self) -> dict[tuple[str, str, int], Trace]:
-        rows = self._connection.execute("SELECT problem, optimizer, trial, trace FROM trials WHERE trace NOT NULL")
-        return {(problem, optimizer, trial): _unpacked(blob) for problem, optimizer, trial, blob in rows}
+    def traces(self) -> dict[Trial, Trace]:
+        rows = self._connection.execute(f"SELECT {self._key()}, trace FROM trials WHERE trace NOT NULL")
+        return {tuple(key): _unpacked(blob) for *key, blob in rows}
 
 
 def _packed(trace: Trace) -> bytes:

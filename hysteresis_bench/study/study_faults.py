@@ -28,7 +28,7 @@ def content_faults(raw: dict[str, Any]) -> list[str]:
         found += [f"[[stage]] {number}: {fault}" for fault in _stage_faults(spec, raw)]
     if isinstance(raw.get("closing"), dict):
         found += [f"[closing]: {fault}" for fault in _closing_faults(raw["closing"], raw)]
-    found += [*_unprintable(raw), *_outside(raw.get("published"))]
+    found += [*_instance_faults(raw), *_unprintable(raw), *_outside(raw.get("published"))]
     found += doubles("optimizer", [str(each.get("label") or each.get("plugin")) for each in tables(raw, "optimizer")])
     for key in ("problem", "stage"):
         found += doubles(key, [str(each["name"]) for each in tables(raw, key) if "name" in each])
@@ -91,8 +91,36 @@ def problem_faults(spec: dict[str, Any], experiments: Sequence[str] = ("fitted",
                     if experiment not in rig.experiments:
                         known = nearest(experiment, rig.experiments)
                         found.append(f'{key}: rig {spec["rig"]} has no experiment "{experiment}". {known}')
+            found += _range_faults(spec)
     if spec.get("loss", "rmse") not in LOSSES:
         found.append(f'no loss "{spec["loss"]}". {nearest(str(spec["loss"]), LOSSES)}')
+    return found
+
+
+def _range_faults(spec: dict[str, Any]) -> list[str]:
+    """Of a problem on a rig: every end of a range must make one."""
+    found = []
+    for name, pair in table(spec, "ranges").items():
+        if not (isinstance(pair, list) and len(pair) == 2 and all(isinstance(end, (int, float)) for end in pair)):
+            continue
+        if not pair[0] < pair[1]:
+            found.append(f"ranges: {name}: {pair[0]} must be below {pair[1]}.")
+        for end in pair:
+            settings = table(spec, "rig_settings") | {name: end}
+            found += [f"ranges: {name} = {end}: {fault}" for fault in registry.faults("rigs", spec["rig"], settings)]
+    return found
+
+
+def _instance_faults(raw: dict[str, Any]) -> list[str]:
+    """Only a rig has instances."""
+    found = [
+        f"[[problem]] {number}: {key}: only a rig can be drawn anew; measured data are one instance."
+        for number, spec in enumerate(tables(raw, "problem"), 1)
+        for key in ("instances", "ranges")
+        if key in spec and "rig" not in spec
+    ]
+    if raw.get("instances", 1) != 1 and not any("rig" in spec for spec in tables(raw, "problem")):
+        found.append("instances: no problem has a rig; measured data are one instance.")
     return found
 
 

@@ -36,6 +36,8 @@ class ProblemSpec(Strict):
     bounds : replaces the box, parameter by parameter
     fixed : parameters that are known: not searched
     profile : parameters whose profile likelihood the report shows
+    instances : of the rig, where it is another number than the study's
+    ranges : of rig settings that are drawn in every instance but the first, beside those that the rig declares
     optimizers : labels of those that run on this problem; all where none is named
     """
 
@@ -54,6 +56,8 @@ class ProblemSpec(Strict):
     bounds: dict[str, tuple[float, float]] = {}
     fixed: dict[str, float] = {}
     profile: list[str] = []
+    instances: PositiveInt | None = None
+    ranges: dict[str, tuple[float, float]] = {}
     optimizers: list[str] = []
     skip: Seconds | None = None
     settle: bool = False
@@ -118,10 +122,12 @@ class ClosingSpec(Strict):
 
 
 class Study(Strict):
-    """A checked study. `reference` is the optimizer that the others are compared with."""
+    """A checked study. `reference` is the optimizer that the others are compared with; `instances` are those of every
+    problem on a rig, and `trials` those of every optimizer on each."""
 
     title: str
     seed: int
+    instances: PositiveInt = 1
     trials: PositiveInt = 3
     budget: PositiveInt = 15050
     timeout: Seconds = 600.0
@@ -140,10 +146,17 @@ class Study(Strict):
     def budget_of(self, spec: OptimizerSpec) -> int:
         return spec.budget or self.budget
 
+    def instances_of(self, spec: ProblemSpec) -> int:
+        return (spec.instances or self.instances) if spec.rig else 1
+
     def identity(self) -> dict[str, Any]:
-        """What makes it the same study: all but the trials, the optimizers, and what follows the trials."""
-        afterwards: dict[str, Any] = {"trials": True, "optimizer": True, "stage": True, "closing": True}
-        return self.model_dump(mode="json", exclude=afterwards | {"problem": {"__all__": {"optimizers"}}})
+        """What makes it the same study: all but the instances, the trials, the optimizers, and what follows them."""
+        more: dict[str, Any] = dict.fromkeys(("instances", "trials", "optimizer", "stage", "closing"), True)
+        found = self.model_dump(mode="json", exclude=more | {"problem": {"__all__": {"optimizers", "instances"}}})
+        for problem in found["problem"]:
+            if not problem["ranges"]:
+                del problem["ranges"]
+        return found
 
 
 def read_study(path: Path) -> tuple[Study, str]:

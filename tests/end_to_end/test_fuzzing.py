@@ -18,7 +18,7 @@ def test_nothing_that_is_read_ends_in_a_traceback_or_in_another_number():
 
 
 def test_a_damaged_folder_is_read():
-    count = fuzz(Target("kept", folders.damages(("pea_swarms",)), folders.read, 1), 20, seed=3)
+    count = fuzz(Target("kept", folders.damages(("pea_instances",)), folders.read, 1), 20, seed=3)
     assert not count.failures
     assert count.answers + count.sentences == 20
 

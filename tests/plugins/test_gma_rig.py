@@ -7,7 +7,7 @@ import pytest
 from scipy.special import jv
 
 from hysteresis_plugins.rigs._gma_rod import PERMEABILITY, Material, diffused, uniform
-from hysteresis_plugins.rigs.gma import MODULUS, PRINTED, RADIUS, RESISTIVITY, SATURATION, GmaRig, material
+from hysteresis_plugins.rigs.gma import MODULUS, PRINTED, RADIUS, RESISTIVITY, SATURATION, GmaRig
 
 SUSCEPTIBILITY = 9.0
 LINEAR = Material(np.ones(1), np.ones(1), np.zeros(1), SUSCEPTIBILITY * 1e15, 1.0, 1e15)
@@ -45,15 +45,15 @@ def test_eddy_currents_in_a_linear_rod_follow_bessel_functions(frequency):
 def test_slow_fields_reach_the_whole_rod():
     time = np.linspace(0.0, 100.0, 500)
     surface = 40e3 + 36e3 * np.sin(2 * np.pi * time / 50.0)
-    _, through = diffused(surface, time[1], RADIUS, 5, RESISTIVITY, material())
-    _, alike = uniform(surface, material())
+    _, through = diffused(surface, time[1], RADIUS, 5, RESISTIVITY, GmaRig().material)
+    _, alike = uniform(surface, GmaRig().material)
     # 50 s against a diffusion time below 1 ms
     np.testing.assert_allclose(through, np.broadcast_to(alike, through.shape), rtol=1e-4)
 
 
 def test_magnetization_is_bounded_and_its_loops_dissipate():
     surface = 3e5 * np.sin(np.linspace(0.0, 4 * np.pi, 2001))
-    _, magnetization = uniform(surface, material())
+    _, magnetization = uniform(surface, GmaRig().material)
     assert np.max(np.abs(magnetization)) < SATURATION
     loop = slice(1000, None)
     assert np.trapezoid(surface[loop], magnetization[loop, 0]) > 0.0
@@ -63,7 +63,7 @@ def test_constant_current_gives_the_static_displacement():
     rig = GmaRig(**QUIET)
     time = np.linspace(0.0, 0.01, 50)
     moved = rig.displacement(time, np.full(50, 2.0))
-    _, magnetization = uniform(np.array([PRINTED["turns"] * 2.0 + rig.bias_field]), material())
+    _, magnetization = uniform(np.array([PRINTED["turns"] * 2.0 + rig.bias_field]), GmaRig().material)
     force = PRINTED["area"] * MODULUS * rig.strain(magnetization[0] / SATURATION)
     np.testing.assert_allclose(moved, np.full(50, 1e6 * force[0] / PRINTED["stiffness"]), rtol=1e-9)
 

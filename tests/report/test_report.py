@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 from rich.console import Console
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.report.paper.claims import FAILS, HOLDS, UNDECIDED, judge
@@ -18,7 +18,7 @@ from hysteresis_bench.report.shared.text import number, percent, probability, wh
 from hysteresis_bench.report.shared.theme import spread_labels
 from hysteresis_bench.report.study import summarise, write_report
 from hysteresis_bench.report.study.console import print_summary
-from hysteresis_bench.report.study.words import answer
+from hysteresis_bench.report.study.words import answer, winners
 from hysteresis_bench.report.trials.summary import at_iterations, problems
 from hysteresis_bench.study.results import read_results
 from hysteresis_bench.study.store import Outcome, Store
@@ -76,9 +76,9 @@ def test_the_summary_is_what_one_counts_by_hand(tiny):
     assert pso["evaluations_to_success_median"] == np.inf
     assert mpso["a12_reference"] == pytest.approx(2 / 3)
     assert pd.isna(mpso["p_reference"])
-    assert mpso["verdict_reference"] == stats.TOO_FEW
+    assert mpso["verdict_reference"] == statistics.TOO_FEW
     assert pso["verdict_reference"] == "is the reference"
-    assert (mpso["success_low"], mpso["success_high"]) == stats.wilson(2, 3)
+    assert (mpso["success_low"], mpso["success_high"]) == statistics.wilson(2, 3)
 
 
 def test_fitness_after_the_papers_iterations_is_read_from_the_traces(tiny):
@@ -97,11 +97,10 @@ def test_who_has_no_iterations_or_not_enough_budget_is_told(results):
 
 def test_the_best_known_to_twelve_digits_is_a_tie(tiny):
     [problem] = problems(tiny)
-    near = problem.best_known * (1 + 1e-9)
-    problem.rows["pso"]["fitness"] = near
-    problem.rows["mpso"]["fitness"] = problem.best_known
+    problem.rows["pso"]["fitness"] = problem.best[1] * (1 + 1e-9)
+    problem.rows["mpso"]["fitness"] = problem.best[1]
     problem.rows["mpso"]["status"] = "done"
-    assert np.array_equal(problem.compared("pso"), problem.compared("mpso"))
+    assert np.array_equal(problem.sample("pso").blocks, problem.sample("mpso").blocks)
 
 
 def test_claims_hold_fail_or_cannot_be_told(results):
@@ -120,7 +119,7 @@ def test_with_few_trials_nothing_is_claimed(tmp_path):
     judged = judge(check_published(few.published), problems(few))
     assert {found.verdict for found in judged} == {UNDECIDED}
     sentences = " ".join(answer(problems(few), summarise(few), judged))
-    assert "too few trials to tell" in sentences
+    assert "cannot be judged on 3 trials" in sentences
     assert "apart from each of the other" not in sentences
     assert summarise(few)["p_best"].isna().all()
 
@@ -131,8 +130,8 @@ def test_those_who_cannot_be_told_apart_are_named(results):
     for label in tied:  # everybody as good as the winner
         problem.rows[label]["fitness"] = problem.rows[problem.winner]["fitness"].to_numpy()
         problem.rows[label]["status"] = "done"
-    sentence = answer([problem], summarise(results), [])[0]
-    assert "We cannot tell it apart from" in sentence
+    [sentence] = winners([problem], summarise(results))
+    assert "In this instance, we cannot tell it apart from" in sentence
     assert set(problem.tied_with_winner) == set(tied)
 
 

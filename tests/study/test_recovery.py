@@ -66,5 +66,5 @@ def test_the_count_at_which_six_digits_are_reached_for_good():
     trace = Trace(np.array([3, 7, 20, 41]), np.array([4.0, 3.0, 2.0, 1.0]), points)
     short = Trace(trace.evaluations[:1], trace.losses[:1], trace.points[:1])
     table = trials({}, {}).assign(problem="a")
-    told = recovery(table, built(), {("a", "pso", 0): trace, ("a", "pso", 1): short})
+    told = recovery(table, built(), {("a", "pso", 1, 0): trace, ("a", "pso", 1, 1): short})
     assert [row["evaluations"] for row in told["trials"]] == [41, None]

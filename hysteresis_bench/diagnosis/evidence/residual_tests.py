@@ -20,7 +20,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates, spectrum
 from hysteresis_bench.diagnosis.evidence.noise import period
 from hysteresis_bench.diagnosis.evidence.view import View
-from hysteresis_bench.stats import LEVEL, holm
+from hysteresis_bench.statistics import LEVEL, holm
 
 OVERALL = "all"
 FEWEST = 40

@@ -16,7 +16,7 @@ from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
 from hysteresis_bench.report.shared.text import NONE, listed, number, whole
-from hysteresis_bench.stats import wilson
+from hysteresis_bench.statistics import wilson
 
 FILE = "report.html"
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.report.paper.expression import evaluate
 from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.paper.published import Table as Printed
@@ -70,8 +70,8 @@ def _ours(optimizer: str, metric: str, problems: list[Problem]) -> Iterator[str]
             yield from (NONE, NONE)
             continue
         values = problem.values(optimizer, metric)
-        yield metric_text(metric, stats.quantile(values, 0.0))
-        yield metric_text(metric, stats.quantile(values, 0.5))
+        yield metric_text(metric, statistics.quantile(values, 0.0))
+        yield metric_text(metric, statistics.quantile(values, 0.5))
 
 
 def _tables_beside(published: Published, results: Results, problems: list[Problem]) -> list[Table]:

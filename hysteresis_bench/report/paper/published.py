@@ -49,13 +49,17 @@ class Implied(Strict):
 
 class Claim(Strict):
     """A sentence of the paper as a comparison: `better` has the lower `metric`, a column of trials.csv or
-    evaluations_to_success."""
+    evaluations_to_success.
+
+    ablation : the question is ours, what a part of the paper's algorithm does for it
+    """
 
     says: str
     where: str
     better: str
     worse: str
     metric: str
+    ablation: bool = False
 
 
 class Audit(Strict):
@@ -106,7 +110,8 @@ class Published(Strict):
     @property
     def optimizers(self) -> list[str]:
         """The optimizers the paper speaks of, in order of appearance."""
-        named = [name for claim in self.claim for name in (claim.worse, claim.better)]
+        claims = [claim for claim in self.claim if not claim.ablation]
+        named = [name for claim in claims for name in (claim.worse, claim.better)]
         return list(dict.fromkeys([result.optimizer for result in self.result] + named))
 
 

@@ -8,11 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.searches.looks import Look
 from hysteresis_bench.report.shared.theme import INK, MUTED, Picture, picture, spread_labels
-from hysteresis_bench.report.trials.problem import INF, NEAR, Problem
+from hysteresis_bench.report.trials.best_known import NEAR
+from hysteresis_bench.report.trials.problem import Problem
 
 EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
@@ -31,9 +32,10 @@ def convergence(folder: Path, name: str, problem: Problem, *, looks: Mapping[str
         axes = figure.add_subplot()
         ends = {}
         for label in shown:
-            best = np.array([problem.best_at(label, int(trial), counts) for trial in problem.rows[label]["trial"]])
-            best = np.maximum(best, problem.best_known)
-            low, middle, high = (_finite([stats.quantile(column, q) for column in best.T]) for q in (0.25, 0.5, 0.75))
+            best = np.array([problem.best_at(label, key, counts) for key in problem.keys(label)])
+            best = np.maximum(best, problem.known(label)[:, None]) / _scale(problem, label)[:, None]
+            quartiles = [_finite([statistics.quantile(column, q) for column in best.T]) for q in (0.25, 0.5, 0.75)]
+            low, middle, high = quartiles
             look = looks[label]
             axes.plot(counts, middle, color=look.colour, linestyle=look.dash, zorder=3)
             axes.fill_between(counts, low, high, color=look.colour, alpha=0.16, linewidth=0)
@@ -41,13 +43,21 @@ def convergence(folder: Path, name: str, problem: Problem, *, looks: Mapping[str
         axes.set(xscale="log", yscale="log", xlim=(1, budget))
         _limit(axes, list(ends.values()), counts)
         _label_ends(axes, {label: values[-1] for label, values in ends.items()}, looks)
-        axes.set(xlabel="Evaluations", ylabel="Best fitness so far")
+        ylabel = "Best fitness so far / best known" if problem.several else "Best fitness so far"
+        axes.set(xlabel="Evaluations", ylabel=ylabel)
 
     ranked = ", ".join(shown)
     alt = f"Best fitness against evaluations on {problem.name}; lowest at the end first: {ranked}."
     caption = f"{problem.name}. Best fitness so far against evaluations, both logarithmic. Line: median over "
     caption += f"{trials} trial{'s' * (trials != 1)}; band: quartiles. Failed trials count as infinitely bad."
+    caption += " Fitness is over the best known of the instance." if problem.several else ""
     return picture(folder, name, (4.6, 3.1), alt=alt, caption=caption, draw=draw)
+
+
+def _scale(problem: Problem, label: str) -> Array:
+    """(trials,): what fitness is drawn over, where instances differ in it."""
+    known = problem.known(label)
+    return np.where((known > 0.0) & np.isfinite(known), known, 1.0) if problem.several else np.ones(known.size)
 
 
 def _finite(values: Sequence[float]) -> Array:
@@ -81,9 +91,8 @@ def _labels(axes: Any, labels: Sequence[str], places: Sequence[float], looks: Ma
 
 def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look]) -> Picture:
     """Every trial of every optimizer: fitness over the best known, one row an optimizer, best median on top."""
-    scale = problem.best_known if 0.0 < problem.best_known < INF else 1.0
-    ratios = {label: np.maximum(problem.values(label, "fitness"), problem.best_known) / scale
-              for label in problem.ranked}  # fmt: skip
+    ratios = {label: problem.ratios(label) for label in problem.ranked}
+    over = all(known > 0.0 for known in problem.best.values())
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
@@ -97,9 +106,9 @@ def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str,
             shown = values[np.isfinite(values)]
             dots = _spread(shown)
             axes.plot(dots, np.full(dots.size, row), "o", color=colour, markersize=2.6, alpha=0.35, markeredgewidth=0)
-            quartiles = [min(stats.quantile(values, q), top) for q in (0.25, 0.75)]
+            quartiles = [min(statistics.quantile(values, q), top) for q in (0.25, 0.75)]
             axes.plot(quartiles, [row, row], color=colour, linewidth=2.2, solid_capstyle="butt", alpha=0.8)
-            median = stats.quantile(values, 0.5)
+            median = statistics.quantile(values, 0.5)
             if np.isfinite(median):
                 axes.plot([median], [row], "|", color=colour, markersize=9, markeredgewidth=1.8)
             failed = values.size - shown.size
@@ -113,11 +122,11 @@ def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str,
         axes.set_ylim(len(ratios) - 0.4, -0.6)
         axes.set_xlim(float(np.min(finite, initial=1.0)) / 1.03, top)
         _plain_ticks(axes, top)
-        axes.set_xlabel("Fitness / best known" if scale == problem.best_known else "Fitness")
+        axes.set_xlabel("Fitness / best known" if over else "Fitness")
 
     alt = f"All trials on {problem.name}. Best median first: {', '.join(ratios)}."
-    caption = f"{problem.name}. Final fitness of every trial over the best known to the study. Dot: a trial; bar: "
-    caption += "quartiles; tick: median; dotted: 1 % above the best known, where success begins."
+    caption = f"{problem.name}. Final fitness of every trial over the best known to the study on its instance. Dot: "
+    caption += "a trial; bar: quartiles; tick: median; dotted: 1 % above the best known, where success begins."
     if any(np.isfinite(values).sum() > DOTS for values in ratios.values()):
         caption += f" Where there are more than {DOTS} trials, as many are drawn, evenly from the best to the worst."
     return picture(folder, name, (4.6, 0.9 + 0.185 * len(ratios)), alt=alt, caption=caption, draw=draw)
@@ -145,10 +154,11 @@ def runtime(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Lo
     counts = np.unique(np.geomspace(1, budget, 200).astype(int))
     curves = {}
     for label in problem.labels:
-        trials = [int(trial) for trial in problem.rows[label]["trial"]]
-        targets = problem.best_known * (1.0 + EXCESSES)
-        hits = [[problem.first_below(label, trial, target) for target in targets] for trial in trials]
-        curves[label] = stats.ecdf(hits, counts)
+        hits = [
+            [problem.first_below(label, key, problem.best[key[0]] * (1.0 + excess)) for excess in EXCESSES]
+            for key in problem.keys(label)
+        ]
+        curves[label] = statistics.ecdf(hits, counts)
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()

@@ -9,6 +9,7 @@ import numpy as np
 
 from hysteresis_bench.report.shared.text import whole
 from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, picture
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.results import Results
 
 COLUMNS = 3
@@ -18,7 +19,7 @@ MOST = 8
 
 def parameters_by_iteration(results: Results, problem: str, label: str, *, folder: Path, name: str) -> Picture | None:
     """Fitness and parameters of the best so far, a panel each, a line a trial; None where there is no trace."""
-    traces = [trace for (where, who, _), trace in sorted(results.traces.items()) if (where, who) == (problem, label)]
+    traces = [trace for key, trace in sorted(results.traces.items()) if key[:3] == (problem, label, FIRST)]
     traces = [trace for trace in traces[:MOST] if trace.evaluations.size]
     analysis = results.identifiability.get(problem, {})
     if not traces or "names" not in analysis:

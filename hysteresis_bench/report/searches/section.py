@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
@@ -41,4 +40,4 @@ def section(
 
 def drawable(problems: Sequence[Problem]) -> list[tuple[int, Problem]]:
     """Problems with a trial that has a result, with their numbers in the names of figures."""
-    return [(i, problem) for i, problem in enumerate(problems, 1) if math.isfinite(problem.best_known)]
+    return [(i, problem) for i, problem in enumerate(problems, 1) if not problem.failed]

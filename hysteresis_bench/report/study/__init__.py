@@ -22,14 +22,15 @@ FROM_TABLES = "report-from-tables.html"
 
 
 def write_report(folder: Path) -> Path:
-    """Write summary.csv, figures/*.svg, report.html and closing/diagnosis.html into a results folder; returns the page.
+    """Write summary.csv, claims.csv, tables.tex, figures/*.svg, report.html and closing/diagnosis.html into a results
+    folder; returns the page.
 
-    The same results give the same files. Where trials.sqlite is not kept, a page and a summary that are there have
+    The same results give the same files. Where trials.sqlite is not kept, a page and tables that are there have
     more than can be written again: they stay, and the page is `report-from-tables.html`.
     Raises UserError where the folder holds no study or no trials, or its published file has faults.
     """
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
-    from hysteresis_bench.report.study.page import CONTENT, study_page
+    from hysteresis_bench.report.study.page import CONTENT, study_page, write_tables
 
     results = read_results(folder)
     if results.trials.empty:
@@ -44,4 +45,5 @@ def write_report(folder: Path) -> Path:
     parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
     if not richer:
         write_table(folder / SUMMARY, pd.concat(part for part in parts if not part.empty))
+        write_tables(results, summary, folder)
     return study_page(results, summary, folder).write(folder / (FROM_TABLES if richer else REPORT))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.report.shared.text import NONE, number, percent, probability, seconds, whole
 from hysteresis_bench.report.study import run
 from hysteresis_bench.report.trials.summary import problems, summarise
@@ -25,8 +25,8 @@ def print_summary(results: Results, console: Console) -> None:
         table.add_column("optimizer", no_wrap=True)
         for heading in ("median fitness", "relative RMS", "success", "evals to success", "time", "failed"):
             table.add_column(heading, justify="right")
-        if not (enough := len(problem.trials) >= stats.ENOUGH):
-            table.caption = f"against each other: {stats.TOO_FEW} ({stats.ENOUGH} are needed)"
+        if not (enough := problem.blocks >= statistics.ENOUGH):
+            table.caption = f"against each other: {statistics.TOO_FEW} ({statistics.ENOUGH} are needed)"
         table.add_column("against best" if enough else "", no_wrap=True)
         for _, row in summary[summary["problem"] == problem.name].iterrows():
             p = probability(row["p_best"])
@@ -35,7 +35,7 @@ def print_summary(results: Results, console: Console) -> None:
                 row["optimizer"],
                 number(row["fitness_median"]),
                 percent(row["relative_rms_median"]),
-                f"{row['successes']} of {row['trials']}",
+                f"{row['successes']} of {row['counted']}",
                 whole(row["evaluations_to_success_median"]),
                 seconds(row["seconds_median"]),
                 str(row["failed"]) if row["failed"] else NONE,
@@ -49,6 +49,6 @@ def print_summary(results: Results, console: Console) -> None:
 
 def _short(verdict: str, p: str) -> str:
     """A verdict that fits its column; the report says how large the effect is."""
-    if verdict == stats.SAME:
+    if verdict == statistics.SAME:
         return "cannot tell apart"
     return verdict if p == NONE else f"{verdict.partition(' (')[0]}, p {p}"

@@ -8,12 +8,17 @@ from typing import Any
 
 import numpy as np
 
+from hysteresis_bench import registry
+from hysteresis_bench.fit.least_squares import at_bound
+from hysteresis_bench.parameters import Space
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.page import Section
-from hysteresis_bench.report.shared.text import NONE, number, percent, unit_cell
+from hysteresis_bench.report.shared.text import NONE, listed, number, percent, unit_cell
 from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, picture
 from hysteresis_bench.report.study.recovered import recovered
+from hysteresis_bench.study.problems import boxed, build_system
 from hysteresis_bench.study.results import Results
+from hysteresis_bench.study.study_file import ProblemSpec
 
 LIMIT = 3.841
 """95 % quantile of chi-square with one degree of freedom, for uncorrelated residuals."""
@@ -28,17 +33,18 @@ def section(results: Results, folder: Path) -> Section | None:
     for i, spec in enumerate(results.study.problem, 1):
         analysis = results.identifiability.get(spec.name)
         if analysis is not None:
-            blocks += [Heading(spec.name), *_of_problem(folder, i, spec.name, analysis)]
+            blocks += [Heading(spec.name), *_of_problem(folder, i, spec, analysis)]
     return Section("determined", "What the data determine", blocks) if len(blocks) > 1 else None
 
 
-def _of_problem(folder: Path, number: int, problem: str, analysis: Mapping[str, Any]) -> Iterator[Block]:
+def _of_problem(folder: Path, number: int, spec: ProblemSpec, analysis: Mapping[str, Any]) -> Iterator[Block]:
     """Sentences, table, who recovers a known truth, profiles; number : in the names of figures"""
+    problem = spec.name
     if "fault" in analysis:
         yield Bullets([analysis["fault"]])
     else:
         yield Bullets(analysis["sentences"] or ["All parameters are well determined."])
-        yield _table(problem, analysis)
+        yield _table(problem, analysis, _at_bounds(spec, analysis))
     if analysis.get("recovery"):
         yield recovered(problem, analysis["recovery"])
     if profiles := analysis.get("profiles"):
@@ -46,7 +52,21 @@ def _of_problem(folder: Path, number: int, problem: str, analysis: Mapping[str, 
         yield Figures(drawn, "small")
 
 
-def _table(problem: str, analysis: Mapping[str, Any]) -> Table:
+def _at_bounds(spec: ProblemSpec, analysis: Mapping[str, Any]) -> list[str]:
+    """Parameters at an end of their box, as far as the box is known without the data."""
+    if registry.faults("models", spec.model, spec.settings):
+        return []
+    parameters, faults = boxed(build_system(spec.model, spec.settings, fixed=spec.fixed).parameters, spec)
+    found = dict(zip(analysis["names"], analysis["values"], strict=True))
+    known = [each for each in parameters if each.name in found and (spec.box == "model" or each.name in spec.bounds)]
+    if faults or not known:
+        return []
+    values = np.array([found[parameter.name] for parameter in known], dtype=float)
+    edges = at_bound(Space(tuple(known)), values)
+    return [parameter.name for parameter, edge in zip(known, edges, strict=True) if edge]
+
+
+def _table(problem: str, analysis: Mapping[str, Any], at_bounds: list[str]) -> Table:
     rows: list[list[str | Cell]] = []
     for name, unit, value, error in zip(
         analysis["names"], analysis["units"], analysis["values"], analysis["standard_errors"], strict=True
@@ -56,9 +76,12 @@ def _table(problem: str, analysis: Mapping[str, Any]) -> Table:
         shown: list[str | Cell] = [Cell("none", "bad"), NONE]
         if error is not None:
             shown = [number(error, 2), Cell(percent(share, 2), tone)]
-        rows.append([name, number(value, 6), *shown, unit_cell(unit)])
+        best = Cell(number(value, 6), "bad" if name in at_bounds else "")
+        rows.append([name, best, *shown, unit_cell(unit)])
     note = f"The output sees {analysis['rank']} of {len(analysis['names'])} directions of the parameters; "
     note += f"{analysis['determined']} of them are known above the noise."
+    if at_bounds:
+        note += f" At an end of the box: {listed(at_bounds)}. A wider box might hold a better fit."
     header = ["Parameter", "Best of all trials", "Standard error", "Of the value", "Unit"]
     return Table(f"{problem}: what the data determine", header, rows, note)
 

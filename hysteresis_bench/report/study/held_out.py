@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from hysteresis_bench import stats
 from hysteresis_bench.report.paper.by_record import by_record
 from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.shared.blocks import Cell, Table
@@ -50,7 +49,7 @@ def _table(problem: Problem, summary: pd.DataFrame) -> Table:
         best = problem.best_trial(label)
         numbers = [NONE] * 3 if best is None else [number(best["rmse"]), number(best["held_out_rmse"]),
                                                    percent(best["max_error"])]  # fmt: skip
-        fitted = stats.quantile(problem.values(label, "rmse"), 0.5)
+        fitted = problem.middle(label, "rmse")
         held = NONE if trials["held_out_rmse"].isna().all() else number(median["held_out_rmse_median"])
         rows.append([label, *numbers, number(fitted), held, percent(median["max_error_median"])])
     header = ["Optimizer", "Fitted RMSE, best trial", "Held-out RMSE, best trial", "Largest error, best trial"]

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from pathlib import Path
+from collections.abc import Sequence
 
 import pandas as pd
 
-from hysteresis_bench import stats
-from hysteresis_bench.report.searches.figures import all_trials
-from hysteresis_bench.report.searches.looks import Look
-from hysteresis_bench.report.searches.section import drawable
-from hysteresis_bench.report.shared.blocks import Cell, Figures, Table
+from hysteresis_bench import statistics
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import (
     NONE,
@@ -19,33 +15,35 @@ from hysteresis_bench.report.shared.text import (
     number,
     p_equals,
     percent,
-    probability,
     seconds,
     share,
     whole,
 )
+from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.study.definitions import SUCCESS
+from hysteresis_bench.report.study.words import winners
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import at_iterations, other_budgets, problems, summarise
 from hysteresis_bench.study.results import Results
 
 
 def at_equal_evaluations(
-    here: Sequence[Problem], summary: pd.DataFrame, reference: str, *, looks: Mapping[str, Look], folder: Path
+    here: Sequence[Problem], summary: pd.DataFrame, reference: str, pictures: Sequence[Picture]
 ) -> Section:
-    """Every trial in a figure, every optimizer in a table."""
+    """Who won, and every optimizer in a table. pictures : of all trials, of problems that have none elsewhere"""
     how = (
-        f"{SUCCESS} Tests compare fitness, each optimizer with the reference, {reference}, and with the best by median"
+        f"{SUCCESS} Verdicts compare fitness, each optimizer with the reference, {reference}, and with the best by "
+        "median only. Every other number of a row is in summary.csv."
     )
-    trials = [all_trials(folder, f"trials-{i}", problem, looks=looks) for i, problem in drawable(here)]
-    tables = [_table(problem, summary) for problem in here]
-    return Section("optimizers", "All optimizers at equal evaluations", [f"{how} only.", Figures(trials), *tables])
+    tables = [table(problem, summary) for problem in here]
+    blocks: list[Block] = [Bullets(winners(here, summary)), *([Figures(pictures)] if pictures else []), how, *tables]
+    return Section("optimizers", "All optimizers at equal evaluations", blocks)
 
 
 def at_other_budgets(results: Results) -> Section | None:
     """None where all optimizers have the study's budget."""
     tables = [
-        _table(problem, summarise(results, budget))
+        table(problem, summarise(results, budget))
         for budget in other_budgets(results)
         for problem in problems(results, budget)
     ]
@@ -66,50 +64,65 @@ def at_the_papers_iterations(results: Results, here: Sequence[Problem], count: i
     return Section("iterations", "At the paper’s number of iterations", [how, *tables])
 
 
-def _table(problem: Problem, summary: pd.DataFrame) -> Table:
-    """Every optimizer at equal evaluations, best median first."""
-    rows: list[list[str | Cell]] = []
-    for _, row in summary[summary["problem"] == problem.name].iterrows():
-        strong = row["optimizer"] in (problem.winner, problem.reference)
-        low, high = row["success_low"], row["success_high"]
-        rows.append(
-            [
-                Cell(row["optimizer"], strong=strong),
-                number(row["fitness_best"]),
-                number(row["fitness_median"]),
-                f"{number(row['fitness_q1'], 3)} to {number(row['fitness_q3'], 3)}",
-                percent(row["relative_rms_median"]),
-                f"{row['successes']} of {row['trials']} ({100 * low:.0f} to {100 * high:.0f}\u202f%)",
-                whole(row["evaluations_to_success_median"]),
-                whole(row["expected_running_time"]),
-                whole(row["evaluations_median"]),
-                seconds(row["seconds_median"]),
-                str(row["failed"]) if row["failed"] else NONE,
-                number(row["mean_rank"], 3),
-                *_compared(row, "reference"),
-                *_compared(row, "best"),
-            ]
-        )
-    header = ["Optimizer", "Best", "Median", "Quartiles", "Relative RMS", "Success (95 %)", "Evaluations to success"]
-    header += ["ERT", "Evaluations", "Time", "Failed", "Mean rank", "Against reference", "p", "A12"]
-    header += ["Against best", "p", "A12"]
-    return Table(f"{problem.name}: fitness at equal evaluations", header, rows, note=_friedman(problem))
+def table(problem: Problem, summary: pd.DataFrame) -> Table:
+    """Every optimizer at equal evaluations, best median first; verdicts where there are enough blocks."""
+    enough = problem.blocks >= statistics.ENOUGH
+    here = summary[summary["problem"] == problem.name]
+    columns: dict[str, list[str | Cell]] = {
+        "Optimizer": [
+            Cell(label, strong=label in (problem.winner, problem.reference)) for label in map(str, here["optimizer"])
+        ],
+        "Fitness, median": [number(value) for value in here["fitness_median"]],
+        "Relative RMS": [_relative_rms(row) for _, row in here.iterrows()],
+        "Success (95 %)": [_success(row) for _, row in here.iterrows()],
+    }
+    if problem.traces:
+        columns["ERT"] = [whole(value) for value in here["expected_running_time"]]
+    columns["Time"] = [seconds(value) for value in here["seconds_median"]]
+    if here["failed"].any():
+        columns["Failed"] = [str(value) if value else NONE for value in here["failed"]]
+    if enough:
+        columns["Against reference"] = [_verdict(row["verdict_reference"]) for _, row in here.iterrows()]
+        columns["A12 (95 %)"] = [_a12(row) for _, row in here.iterrows()]
+        columns["Against best"] = [_verdict(row["verdict_best"]) for _, row in here.iterrows()]
+    same = list(here["optimizer"][here["deterministic"]])
+    note = f"Deterministic, counted once an instance: {listed(same, len(same))}. " if same else ""
+    rows = list(zip(*columns.values(), strict=True))
+    title = f"{problem.name}: fitness over {problem.counted}"
+    return Table(title, list(columns), rows, note=f"{note}{_friedman(problem)}")
 
 
-def _compared(row: pd.Series, name: str) -> list[str | Cell]:
-    verdict = row[f"verdict_{name}"]
-    tone = "good" if verdict.startswith("better") else "bad" if verdict.startswith("worse") else "quiet"
-    return [Cell(verdict, f"{tone} line"), probability(row[f"p_{name}"]), share(row[f"a12_{name}"])]
+def _relative_rms(row: pd.Series) -> str:
+    """Median and quartiles; the median alone where these are no other."""
+    quartiles = [percent(row[f"relative_rms_{name}"]) for name in ("q1", "q3")]
+    middle = percent(row["relative_rms_median"])
+    return (
+        middle if set(quartiles) == {middle} else f"{middle} ({quartiles[0].split()[0]} to {quartiles[1].split()[0]})"
+    )
+
+
+def _success(row: pd.Series) -> str:
+    low, high = 100.0 * row["success_low"], 100.0 * row["success_high"]
+    return f"{row['successes']} of {row['counted']} ({low:.0f} to {high:.0f}\u202f%)"
+
+
+def _verdict(words: str) -> Cell:
+    tone = "good" if words.startswith("better") else "bad" if words.startswith("worse") else "quiet"
+    return Cell("cannot tell" if words == statistics.SAME else words.removesuffix(" effect)").replace(" (", ", "), tone)
+
+
+def _a12(row: pd.Series) -> str:
+    """Against the reference."""
+    ends = f"({share(row['a12_low_reference'])} to {share(row['a12_high_reference'])})"
+    return NONE if pd.isna(row["a12_reference"]) else f"{share(row['a12_reference'])} {ends}"
 
 
 def _friedman(problem: Problem) -> str:
     found = problem.friedman
     if found.p is None:
-        enough = len(problem.trials) >= stats.ENOUGH
-        return "" if enough else f"Friedman test: {stats.TOO_FEW}; {len(problem.trials)} common trials."
-    verdict = "at least one optimizer differs" if found.p < stats.LEVEL else "we cannot tell the optimizers apart"
-    count, statistic = len(problem.trials), number(found.statistic)
-    return f"Friedman test over {count} trials: χ² = {statistic}, {p_equals(found.p)}; {verdict}."
+        return ""
+    verdict = "at least one optimizer differs" if found.p < statistics.LEVEL else "we cannot tell the optimizers apart"
+    return f"Friedman test over {problem.counted}: χ² = {number(found.statistic)}, {p_equals(found.p)}; {verdict}."
 
 
 def _at(frame: pd.DataFrame, problem: Problem, count: int) -> Table:

@@ -10,6 +10,7 @@ from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import listed, whole
 from hysteresis_bench.report.trials.problem import Problem
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.origin import made_with
 from hysteresis_bench.study.results import Results
 
@@ -31,11 +32,11 @@ def in_words(trials: pd.DataFrame, problems: Sequence[Problem]) -> str:
     """How many trials of what, and how many failed."""
     failed = int(trials["fitness"].isna().sum())
     labels = {label for problem in problems for label in problem.labels}
-    least = min((len(problem.trials) for problem in problems), default=0)
+    least = min(problems, key=lambda problem: problem.blocks).counted if problems else "0 trials"
     fate = "none failed" if failed == 0 else f"{failed} failed and rank as infinitely bad"
     return (
         f"{len(trials)} trials: {len(labels)} optimizers on {len(problems)} problem{'s' * (len(problems) != 1)}, "
-        f"{least} trial{'s' * (least != 1)} that all of them have; {fate}."
+        f"{least} that all of them have; {fate}."
     )
 
 
@@ -44,7 +45,8 @@ def _failures(results: Results) -> Table | None:
     other = results.trials[results.trials["status"] != "done"]
     if other.empty:
         return None
-    keys = ["problem", "optimizer", "status", "reason"]
+    keys = ["problem", "optimizer", *(["instance"] if results.trials["instance"].nunique() > 1 else [])]
+    keys += ["status", "reason"]
     counted = other.assign(reason=other["reason"].fillna("")).value_counts(keys, sort=False).reset_index()
     rows = [[str(value) for value in row] for row in counted.to_numpy()]
     return Table("Trials that failed or ended early", [*(key.capitalize() for key in keys), "Trials"], rows)
@@ -54,8 +56,9 @@ def _origins(results: Results) -> Table:
     rows = []
     for words, trials in made_with(results.origins).items():
         numbers: dict[tuple[str, str], list[int]] = {}
-        for problem, optimizer, number in sorted(trials):
-            numbers.setdefault((problem, optimizer), []).append(number)
+        for problem, optimizer, instance, number in sorted(trials):
+            name = optimizer if instance == FIRST else f"{optimizer}, instance {instance}"
+            numbers.setdefault((problem, name), []).append(number)
         rows += [[words, *pair, ", ".join(map(str, found))] for pair, found in numbers.items()]
     return Table(
         "What the trials were made with, as far as it differs", ["Made with", "Problem", "Optimizer", "Trials"], rows

@@ -2,32 +2,53 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.report.paper import claims
 from hysteresis_bench.report.shared.text import listed, number, percent
-from hysteresis_bench.report.trials.problem import EQUAL, Problem
+from hysteresis_bench.report.trials.best_known import EQUAL
+from hysteresis_bench.report.trials.problem import Problem
 
 
 def answer(problems: Sequence[Problem], summary: pd.DataFrame, judged: Sequence[claims.Judged]) -> list[str]:
-    """A sentence or two a problem, then one a claim."""
-    winners = [_winner(problem, summary[summary["problem"] == problem.name]) for problem in problems]
-    return winners + claims.in_words(judged)
+    """One sentence on the paper's claims, one on who found the best fits."""
+    told = [claims.in_words(judged), _best(problems, summary)]
+    return [sentence for sentence in told if sentence]
 
 
-def _winner(problem: Problem, rows: pd.DataFrame) -> str:
-    if not math.isfinite(problem.best_known):
+def _best(problems: Sequence[Problem], summary: pd.DataFrame) -> str:
+    """Of every problem the winner and whom nobody can tell it apart from."""
+    parts = []
+    for problem in (problem for problem in problems if not problem.failed):
+        best = _row(problem, summary)
+        same = problem.tied_with_winner
+        beside = f", beside {len(same)} that nobody can tell apart from it" if same else ""
+        rms = percent(best["relative_rms_median"])
+        parts.append(f"{problem.winner} on “{problem.name}” (relative RMS {rms}{beside})")
+    return f"The best fits by median come from {listed(parts, len(parts))}." if parts else "Every trial failed."
+
+
+def winners(problems: Sequence[Problem], summary: pd.DataFrame) -> list[str]:
+    """A sentence or two a problem."""
+    return [_winner(problem, summary) for problem in problems]
+
+
+def _row(problem: Problem, summary: pd.DataFrame) -> pd.Series:
+    return summary[(summary["problem"] == problem.name) & (summary["optimizer"] == problem.winner)].iloc[0]
+
+
+def _winner(problem: Problem, summary: pd.DataFrame) -> str:
+    if problem.failed:
         return f"On “{problem.name}” every trial failed."
-    best = rows.set_index("optimizer").loc[problem.winner]
+    best = _row(problem, summary)
     sentence = (
         f"On “{problem.name}”, {problem.winner} has the lowest median fitness, {number(best['fitness_median'])} "
         f"(relative RMS {percent(best['relative_rms_median'])}{_ratio(problem)}). It came within 1 % of the best known "
-        f"in {best['successes']} of {best['trials']} trials."
+        f"in {best['successes']} of {best['counted']} trials."
     )
     return f"{sentence} {_apart(problem)}"
 
@@ -35,8 +56,10 @@ def _winner(problem: Problem, rows: pd.DataFrame) -> str:
 def _ratio(problem: Problem) -> str:
     if problem.reference not in problem.labels or problem.reference == problem.winner:
         return ""
-    theirs = stats.quantile(problem.values(problem.reference, "fitness"), 0.5)
-    ours = max(stats.quantile(problem.values(problem.winner, "fitness"), 0.5), problem.best_known)
+    theirs, ours = (
+        statistics.quantile(problem.per_block(label, problem.ratios(label)), 0.5)
+        for label in (problem.reference, problem.winner)
+    )
     if not np.isfinite(theirs) or ours <= 0:
         return ""
     ratio = theirs / ours
@@ -50,14 +73,16 @@ def _apart(problem: Problem) -> str:
     others = len(problem.labels) - 1
     if others == 0:
         return "Nobody else was run."
-    if len(problem.trials) < stats.ENOUGH:
+    if problem.blocks < statistics.ENOUGH:
         return (
-            f"With {len(problem.trials)} trial{'s' * (len(problem.trials) != 1)} this describes what happened and "
-            f"proves nothing: {stats.TOO_FEW} the optimizers apart ({stats.ENOUGH} are needed)."
+            f"With {problem.counted} this describes what happened and proves nothing: {statistics.TOO_FEW} the "
+            f"optimizers apart ({statistics.ENOUGH} are needed)."
         )
+    where = f"Over {problem.counted}" if problem.several else "In this instance"
     same = problem.tied_with_winner
     if not same:
-        return f"The trials tell it apart from each of the other {others} (Holm-corrected p < {stats.LEVEL})."
+        level = f"(Holm-corrected p < {statistics.LEVEL})"
+        return f"{where}, the trials tell it apart from each of the other {others} {level}."
     rest = others - len(same)
     apart = f" The trials tell it apart from the other {rest}." if rest else ""
-    return f"We cannot tell it apart from {listed(same, 8)}.{apart}"
+    return f"{where}, we cannot tell it apart from {listed(same, 8)}.{apart}"

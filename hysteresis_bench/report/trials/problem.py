@@ -1,4 +1,8 @@
-"""The trials of one problem: medians, ranks, and who can be told from whom."""
+"""The trials of one problem: medians, ranks, and who can be told from whom.
+
+An instance is a block of every test and interval, its trials are repeats. Where there is one instance, its trials are
+the blocks, and what is found holds in this instance alone.
+"""
 
 from __future__ import annotations
 
@@ -9,22 +13,16 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.report.trials.best_known import EQUAL, EXACT, INF, NEAR, metric_values
 from hysteresis_bench.report.trials.metrics import TO_SUCCESS
-from hysteresis_bench.study.results import FINISHED
 
-INF = float("inf")
-NEAR = 1.01
-"""A success is a fitness within this factor of the best known to the study on the problem."""
+Key = tuple[int, int]
+"""instance, trial"""
 
-EQUAL = 1.0001
-"""Tests take a fitness within this factor of the best known for the best known itself: with noise-free
-arithmetic the twelfth digit would decide otherwise."""
-
-EXACT = 1e-6
-"""Relative RMS below which a fit is exact and none is better than another: on data without noise some searches
-go on to the last bit, and whether they do says nothing."""
+PRACTICAL = {"fitness": "relative_rms"}
+"""On what equivalence is judged, where not on the metric itself: a fitness may be a square."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,114 +30,177 @@ class Problem:
     """The trials of one problem as arrays of trials that every optimizer has, inf where a trial failed.
 
     labels : optimizers in the order of the study file, those without a trial left out
-    trials : the trials that all of them have; tests are paired over these
+    rows : of each the trials, ordered by instance and trial
+    best : the lowest fitness that any trial of the study found, whatever its budget, by instance
     """
 
     name: str
     labels: list[str]
     rows: Mapping[str, pd.DataFrame]
-    traces: Mapping[tuple[str, int], tuple[Array, Array]]
+    traces: Mapping[tuple[str, int, int], tuple[Array, Array]]
     reference: str
+    best: Mapping[int, float]
 
     @cached_property
-    def trials(self) -> list[int]:
-        common = [set(rows["trial"]) for rows in self.rows.values()]
+    def trials(self) -> list[Key]:
+        """Those that all optimizers have; tests are paired over these."""
+        common = [set(self.keys(label)) for label in self.labels]
         return sorted(set.intersection(*common)) if common else []
 
-    def values(self, label: str, metric: str, paired: bool = False) -> Array:
-        """(trials,) of one metric, a column of trials.csv or evaluations_to_success; paired: of `trials` only."""
-        rows = self.rows[label]
-        if paired:
-            rows = rows[rows["trial"].isin(self.trials)]
-        if metric == TO_SUCCESS:
-            found = [self.first_below(label, int(trial), self.target) for trial in rows["trial"]]
-            return np.array(found, dtype=float)
-        numbers = pd.to_numeric(rows[metric], errors="coerce").to_numpy(dtype=float, na_value=INF)
-        return np.where(rows["status"].isin(FINISHED), np.where(np.isnan(numbers), INF, numbers), INF)
-
-    def compared(self, label: str, metric: str = "fitness") -> Array:
-        """(trials,) as the tests take them: paired, and fitness not told apart below EQUAL."""
-        values = self.values(label, metric, paired=True)
-        return np.maximum(values, EQUAL * self.best_known) if metric == "fitness" else values
-
-    def best_trial(self, label: str) -> pd.Series | None:
-        """The row of the trial with the lowest fitness; None where all failed."""
-        finished = self.rows[label][self.rows[label]["status"].isin(FINISHED)]
-        return None if finished.empty else finished.sort_values("fitness", kind="stable").iloc[0]
-
     @cached_property
-    def best_known(self) -> float:
-        """The lowest fitness any trial of the study found here, or the highest that is EXACT; inf where all failed."""
-        exact = [
-            float(np.max(self.values(label, "fitness")[close]))
-            for label in self.labels
-            if np.any(close := self.values(label, "relative_rms") <= EXACT)
-        ]
-        return (
-            max(exact)
-            if exact
-            else min((float(np.min(self.values(label, "fitness"), initial=INF)) for label in self.labels), default=INF)
-        )
+    def instances(self) -> list[int]:
+        return sorted({instance for label in self.labels for instance, _ in self.keys(label)})
 
     @property
-    def target(self) -> float:
-        return NEAR * self.best_known
+    def several(self) -> bool:
+        """Whether what is found holds beyond one instance: all optimizers have several."""
+        return len({instance for instance, _ in self.trials}) > 1
 
-    def first_below(self, label: str, trial: int, target: float) -> float:
+    @property
+    def blocks(self) -> int:
+        """Of the tests: instances, or the trials of a single one."""
+        return len({instance for instance, _ in self.trials}) if self.several else len(self.trials)
+
+    @property
+    def counted(self) -> str:
+        """How many blocks, in words."""
+        word = "instance" if self.several else "trial"
+        return f"{self.blocks} {word}{'s' * (self.blocks != 1)}"
+
+    def keys(self, label: str) -> list[Key]:
+        rows = self.rows[label]
+        return list(zip(map(int, rows["instance"]), map(int, rows["trial"]), strict=True))
+
+    def values(self, label: str, metric: str) -> Array:
+        """(trials,) of one metric, a column of trials.csv or evaluations_to_success."""
+        if metric == TO_SUCCESS:
+            return np.array([self.first_below(label, key, NEAR * self.best[key[0]]) for key in self.keys(label)])
+        return metric_values(self.rows[label], metric)
+
+    def known(self, label: str) -> Array:
+        """(trials,): the best known fitness of every trial's instance."""
+        return np.array([self.best[instance] for instance, _ in self.keys(label)])
+
+    def ratios(self, label: str) -> Array:
+        """(trials,): fitness over the best known of the instance; not below 1, and the fitness itself where the best
+        known is 0 or no trial has a result."""
+        known = self.known(label)
+        floor = np.maximum(self.values(label, "fitness"), known)
+        usable = (known > 0.0) & (known < INF)
+        return np.divide(floor, known, out=floor.copy(), where=usable)
+
+    def per_block(self, label: str, values: Array) -> Array:
+        """(blocks,): the medians of the instances that it has, or the trials of a single one; values : (trials,)"""
+        instances = self.rows[label]["instance"].to_numpy(dtype=int)
+        if (numbers := np.unique(instances)).size == 1:
+            return values
+        medians: Array = np.array([np.median(values[instances == number]) for number in numbers])
+        return medians
+
+    def middle(self, label: str, metric: str) -> float:
+        """The median over instances of the medians of their trials."""
+        return statistics.quantile(self.per_block(label, self.values(label, metric)), 0.5)
+
+    def sample(self, label: str, metric: str = "fitness") -> statistics.Sample:
+        """As the tests take it: paired, on a logarithmic scale, what is exact or EQUAL to the best known not told
+        apart."""
+        return statistics.Sample(self._paired(label, metric), self._paired(label, PRACTICAL.get(metric, metric)))
+
+    def _paired(self, label: str, metric: str) -> tuple[Array, ...]:
+        values = self.values(label, metric)
+        if metric == "fitness":
+            values = np.maximum(values, EQUAL * self.known(label))
+        if metric == "relative_rms":
+            values = np.maximum(values, EXACT)
+        with np.errstate(divide="ignore"):
+            of = dict(zip(self.keys(label), np.log(values), strict=True))
+        together = sorted({instance for instance, _ in self.trials})
+        return tuple(np.array([of[key] for key in self.trials if key[0] == instance]) for instance in together)
+
+    def best_trial(self, label: str) -> pd.Series | None:
+        """The row of the trial with the lowest fitness on the first instance; None where all failed."""
+        rows = self.rows[label][np.isfinite(self.values(label, "fitness"))]
+        rows = rows[rows["instance"] == self.instances[0]]
+        return None if rows.empty else rows.sort_values("fitness", kind="stable").iloc[0]
+
+    @property
+    def failed(self) -> bool:
+        """Whether no trial has a result."""
+        return not any(np.isfinite(known) for known in self.best.values())
+
+    def first_below(self, label: str, key: Key, target: float) -> float:
         """Evaluations after which a trial's best was at or below the target; inf if never, NaN where the course of the
         searches was not kept."""
         if not self.traces:
             return float("nan")
-        evaluations, losses = self.traces.get((label, trial), (np.empty(0), np.empty(0)))
+        evaluations, losses = self.traces.get((label, *key), (np.empty(0), np.empty(0)))
         hits = np.nonzero(losses <= target)[0]
         return float(evaluations[hits[0]]) if hits.size and np.isfinite(target) else INF
 
-    def best_at(self, label: str, trial: int, evaluations: Array) -> Array:
+    def best_at(self, label: str, key: Key, evaluations: Array) -> Array:
         """Best fitness of a trial after so many evaluations; inf before the first, and where it failed."""
-        counts, losses = self.traces.get((label, trial), (np.empty(0), np.empty(0)))
+        counts, losses = self.traces.get((label, *key), (np.empty(0), np.empty(0)))
         return np.concatenate([[INF], losses])[np.searchsorted(counts, evaluations, side="right")]
+
+    def repeats_itself(self, label: str) -> bool:
+        """Whether an optimizer is deterministic: wherever an instance has several trials, all came to the same."""
+        rows = self.rows[label].groupby("instance")[["status", "evaluations", "fitness"]]
+        return bool((rows.size() > 1).any() and (rows.nunique(dropna=False) == 1).all(axis=None))
 
     @cached_property
     def ranked(self) -> list[str]:
-        """Labels by median fitness as the tests take it, then by mean rank, evaluations to a success, name."""
+        """Labels by median fitness over the best known as the tests take it, then by mean rank, evaluations to a
+        success, name."""
         mean_ranks = dict(zip(self.labels, self.friedman.mean_ranks, strict=True))
-        floor = EQUAL * self.best_known
         return sorted(
             self.labels,
             key=lambda label: (
-                max(stats.quantile(self.values(label, "fitness"), 0.5), floor),
+                max(statistics.quantile(self.per_block(label, self.ratios(label)), 0.5), self._floor),
                 mean_ranks[label],
-                stats.quantile(self.values(label, TO_SUCCESS), 0.5) if self.traces else 0.0,
+                self.middle(label, TO_SUCCESS) if self.traces else 0.0,
                 label,
             ),
         )
 
     @property
+    def _floor(self) -> float:
+        """Of ratios that are not told apart."""
+        known = statistics.quantile(list(self.best.values()), 0.5)
+        return EQUAL if 0.0 < known < INF else 0.0
+
+    @property
     def winner(self) -> str:
         return self.ranked[0]
 
-    def against(self, label: str) -> dict[str, stats.Comparison]:
+    def against(self, label: str) -> dict[str, statistics.Comparison]:
         """Fitness of every other optimizer against this one, Holm-corrected; empty without it."""
         if label not in self.labels:
             return {}
         others = [other for other in self.labels if other != label]
-        samples = [self.compared(other) for other in others]
-        return dict(zip(others, stats.compare(samples, self.compared(label)), strict=True))
+        samples = [self.sample(other) for other in others]
+        return dict(zip(others, statistics.compare(samples, self.sample(label)), strict=True))
 
     @cached_property
-    def against_reference(self) -> dict[str, stats.Comparison]:
+    def against_reference(self) -> dict[str, statistics.Comparison]:
         return self.against(self.reference)
 
     @cached_property
-    def against_winner(self) -> dict[str, stats.Comparison]:
+    def against_winner(self) -> dict[str, statistics.Comparison]:
         return self.against(self.winner)
 
     @cached_property
-    def friedman(self) -> stats.Friedman:
-        return stats.friedman([self.compared(label) for label in self.labels])
+    def friedman(self) -> statistics.Friedman:
+        return statistics.friedman([self.sample(label).blocks for label in self.labels])
 
     @property
     def tied_with_winner(self) -> list[str]:
-        """Whom the trials cannot tell apart from the best, best first."""
-        same = [label for label, found in self.against_winner.items() if found.words == stats.SAME]
-        return [label for label in self.ranked if label in same]
+        """Whom the trials cannot tell apart from the best, or find equivalent, best first."""
+        return [
+            label
+            for label in self.ranked
+            if (found := self.against_winner.get(label)) and found.p is not None and found.verdict not in APART
+        ]
+
+
+APART = ("better", "worse")
+"""Verdicts that tell two apart."""

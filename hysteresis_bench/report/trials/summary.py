@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench import stats
+from hysteresis_bench import statistics
+from hysteresis_bench.report.trials.best_known import NEAR, best_known
 from hysteresis_bench.report.trials.metrics import TO_SUCCESS
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.study.results import FINISHED, Results
@@ -23,14 +24,15 @@ def problems(results: Results, budget: int | None = None, any_budget: bool = Fal
     for spec in results.study.problem:
         here = results.trials[results.trials["problem"] == spec.name]
         labels = [label for label in _labels(results, here) if any_budget or label not in other]
-        rows = {label: here[here["optimizer"] == label] for label in labels}
+        rows = {label: here[here["optimizer"] == label].sort_values(["instance", "trial"]) for label in labels}
         traces = {
-            (optimizer, trial): (trace.evaluations, trace.losses)
-            for (problem, optimizer, trial), trace in results.traces.items()
+            (optimizer, instance, trial): (trace.evaluations, trace.losses)
+            for (problem, optimizer, instance, trial), trace in results.traces.items()
             if problem == spec.name
         }
         if rows:
-            found.append(Problem(spec.name, list(rows), rows, traces, _reference(results.study, labels)))
+            reference = _reference(results.study, labels)
+            found.append(Problem(spec.name, list(rows), rows, traces, reference, best_known(here)))
     return found
 
 
@@ -60,56 +62,89 @@ def _labels(results: Results, rows: pd.DataFrame) -> list[str]:
 def summarise(results: Results, budget: int | None = None) -> pd.DataFrame:
     """One row a problem and optimizer, best median first; the columns of summary.csv.
 
-    Failed trials count as infinitely bad in medians, quartiles, ranks and tests; p-values are empty below
-    14 common trials. budget : of the optimizers that are compared, the study's own without one
+    Medians and quartiles are over instances, of the medians of their trials; over the trials of a single one. Failed
+    trials count as infinitely bad in all of them; p-values are empty below 14 instances, or trials of a single one.
+    budget : of the optimizers that are compared, the study's own without one
     """
     here = problems(results, budget)
-    return pd.DataFrame([_row(problem, label) for problem in here for label in problem.ranked])
+    evaluations = budget or results.study.budget
+    return pd.DataFrame([_row(problem, label, evaluations) for problem in here for label in problem.ranked])
 
 
-def _row(problem: Problem, label: str) -> dict[str, object]:
+def _row(problem: Problem, label: str, budget: int) -> dict[str, object]:
     rows = problem.rows[label]
-    failed = int((~rows["status"].isin(FINISHED)).sum())
-    reached = problem.values(label, TO_SUCCESS)
-    successes = int(np.count_nonzero(np.isfinite(reached)))
-    spent = np.nan_to_num(pd.to_numeric(rows["evaluations"]).to_numpy(dtype=float, na_value=np.nan))
-    low, high = stats.wilson(successes, len(rows))
     row: dict[str, object] = {
         "problem": problem.name,
         "optimizer": label,
+        "budget": budget,
+        "instances": rows["instance"].nunique(),
         "trials": len(rows),
-        "failed": failed,
+        "failed": int((~rows["status"].isin(FINISHED)).sum()),
+        "deterministic": problem.repeats_itself(label),
         **_spread(problem, label, "fitness"),
         **_spread(problem, label, "relative_rms"),
-        "max_error_median": stats.quantile(problem.values(label, "max_error"), 0.5),
-        "held_out_rmse_median": stats.quantile(problem.values(label, "held_out_rmse"), 0.5),
-        "successes": successes,
-        "success_rate": successes / len(rows),
-        "success_low": low,
-        "success_high": high,
-        "evaluations_to_success_median": stats.quantile(reached, 0.5),
-        "expected_running_time": stats.expected_running_time(reached, spent) if problem.traces else float("nan"),
-        "evaluations_median": float(np.median(spent)),
-        "seconds_median": stats.quantile(problem.values(label, "seconds"), 0.5),
+        "max_error_median": problem.middle(label, "max_error"),
+        "held_out_rmse_median": problem.middle(label, "held_out_rmse"),
+        **_successes(problem, label),
+        "seconds_median": problem.middle(label, "seconds"),
         "mean_rank": problem.friedman.mean_ranks[problem.labels.index(label)],
     }
     for name, family in (("reference", problem.against_reference), ("best", problem.against_winner)):
         found = family.get(label)
+        row[f"verdict_{name}"] = found.words if found else f"is the {name}"
         row[f"p_{name}"] = found.p if found else None
-        row[f"a12_{name}"] = found.a12 if found else None
-    row["verdict_reference"] = _verdict(problem.against_reference.get(label), "the reference")
-    row["verdict_best"] = _verdict(problem.against_winner.get(label), "the best")
+        for key in ("a12", "low", "high"):
+            row["_".join(dict.fromkeys(("a12", key, name)))] = getattr(found, key) if found else None
+        for key in ("better", "equivalent", "worse"):
+            row[f"{key}_{name}"] = getattr(found.practical, key) if found and found.practical else None
     return row
 
 
 def _spread(problem: Problem, label: str, metric: str) -> dict[str, float]:
     values = problem.values(label, metric)
-    shares = {"best": 0.0, "median": 0.5, "q1": 0.25, "q3": 0.75}
-    return {f"{metric}_{name}": stats.quantile(values, share) for name, share in shares.items()}
+    blocks = problem.per_block(label, values)
+    low, high = statistics.median_interval(blocks)
+    shares = {"median": 0.5, "q1": 0.25, "q3": 0.75}
+    found = {f"{metric}_{name}": statistics.quantile(blocks, share) for name, share in shares.items()}
+    best = {f"{metric}_best": float(np.min(values, initial=np.inf))}
+    return best | found | {f"{metric}_median_low": low, f"{metric}_median_high": high}
 
 
-def _verdict(found: stats.Comparison | None, with_whom: str) -> str:
-    return found.words if found else f"is {with_whom}"
+def _successes(problem: Problem, label: str) -> dict[str, object]:
+    """Of a deterministic optimizer one trial an instance is counted: the others are the same trial again. The interval
+    of the rate takes instances for its trials, where there are several."""
+    rows = problem.rows[label]
+    counted = np.full(len(rows), True)
+    if problem.repeats_itself(label):
+        counted = ~rows["instance"].duplicated().to_numpy(dtype=bool)
+    reached = problem.values(label, TO_SUCCESS)[counted]
+    hits = problem.values(label, "fitness")[counted] <= NEAR * problem.known(label)[counted]
+    hits &= np.isfinite(problem.values(label, "fitness")[counted])
+    spent = np.nan_to_num(pd.to_numeric(rows["evaluations"]).to_numpy(dtype=float, na_value=np.nan))[counted]
+    successes, total = int(np.count_nonzero(hits)), len(hits)
+    instances = rows["instance"].to_numpy(dtype=int)[counted]
+    blocks = instances if np.unique(instances).size > 1 else np.arange(total)
+    independent = len(np.unique(blocks))
+    low, high = statistics.wilson(successes / total * independent, independent)
+    charged = np.where(np.isfinite(reached), reached, spent)
+    sums = [np.bincount(blocks, each)[np.unique(blocks)] for each in (charged, np.isfinite(reached).astype(float))]
+    ert = statistics.expected_running_time(reached, spent), *statistics.running_time_interval(*sums)
+    if not problem.traces:
+        ert = (float("nan"),) * 3
+    return {
+        "counted": total,
+        "successes": successes,
+        "success_rate": successes / total,
+        "success_low": low,
+        "success_high": high,
+        "evaluations_to_success_median": statistics.quantile(
+            problem.per_block(label, problem.values(label, TO_SUCCESS)), 0.5
+        ),
+        "expected_running_time": ert[0],
+        "expected_running_time_low": ert[1],
+        "expected_running_time_high": ert[2],
+        "evaluations_median": float(np.median(spent)),
+    }
 
 
 def at_iterations(results: Results, iterations: int) -> pd.DataFrame:
@@ -131,10 +166,10 @@ def at_iterations(results: Results, iterations: int) -> pd.DataFrame:
                 row |= {"evaluations": cost * (iterations + 1), "note": "beyond the budget"}
             else:
                 spent = min(cost * (iterations + 1), budget)  # a first swarm may cost less than an iteration
-                at = [problem.best_at(label, int(t), np.array([spent]))[0] for t in problem.rows[label]["trial"]]
+                at = [problem.best_at(label, key, np.array([spent]))[0] for key in problem.keys(label)]
                 row["evaluations"] = spent
                 row |= {
-                    f"fitness_{name}": stats.quantile(at, q)
+                    f"fitness_{name}": statistics.quantile(at, q)
                     for name, q in (("best", 0.0), ("median", 0.5), ("q1", 0.25), ("q3", 0.75))
                 }
             rows.append(row)

@@ -14,6 +14,7 @@ from hysteresis_bench.fit.identifiability.analysis import analyse, profile
 from hysteresis_bench.fit.least_squares import polish
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.recovery import recovery
+from hysteresis_bench.study.origin import Trial
 from hysteresis_bench.study.problems import Built
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import Study
@@ -33,7 +34,7 @@ def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
 
 
 def identifiability(
-    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, traces: Mapping[tuple[str, str, int], Trace]
+    study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, traces: Mapping[Trial, Trace]
 ) -> dict[str, Any]:
     """Per problem, at the polished best of all trials: rank, standard errors, sentences, profiles.
 

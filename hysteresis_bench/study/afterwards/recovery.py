@@ -13,18 +13,18 @@ import pandas as pd
 
 from hysteresis_bench.fit.identifiability.analysis import analyse
 from hysteresis_bench.fit.objective import Trace
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
+from hysteresis_bench.study.origin import Trial
 from hysteresis_bench.study.problems import Built
 from hysteresis_bench.study.results import FINISHED
 
 SIX_DIGITS = 1e-6
 
 
-def recovery(
-    trials: pd.DataFrame, built: Built, traces: Mapping[tuple[str, str, int], Trace] | None = None
-) -> dict[str, Any] | None:
+def recovery(trials: pd.DataFrame, built: Built, traces: Mapping[Trial, Trace] | None = None) -> dict[str, Any] | None:
     """What is to be recovered, and a row a finished trial; None where the truth is not known.
 
-    trials : of this problem;  traces : by (problem, optimizer, trial), for "evaluations", at which everything that
+    trials : of the first instance of this problem;  traces : for "evaluations", at which everything that
     acts was first within SIX_DIGITS of the truth for good (None where it never was). The truth is
     hidden["parameters"] of the data, by name, in units.
     """
@@ -58,7 +58,7 @@ def recovery(
                 "combinations": error(found),
                 "parameters": max(_errors([(found[name], truth[name]) for name in names])),
                 "evaluations": reached(
-                    (traces or {}).get((str(trial.get("problem")), trial["optimizer"], int(trial["trial"])))
+                    (traces or {}).get((str(trial.get("problem")), trial["optimizer"], FIRST, int(trial["trial"])))
                 ),
             }
         )

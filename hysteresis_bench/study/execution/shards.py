@@ -14,7 +14,9 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.execution.trial import Ticket
 from hysteresis_bench.study.kept_files.json_forms import check_provenance
 from hysteresis_bench.study.kept_files.reader import Reader
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.lock import PART
+from hysteresis_bench.study.origin import Trial
 from hysteresis_bench.study.provenance import differences
 from hysteresis_bench.study.results import FINISHED, PROVENANCE, PUBLISHED, STUDY
 from hysteresis_bench.study.store import DAMAGED, Outcome, Store
@@ -41,9 +43,10 @@ class Shard:
 
     def of_tickets(self, tickets: Sequence[Ticket]) -> list[Ticket]:
         """Its share of them, in the order of tickets_of: of every optimizer, as they differ in the time they take."""
-        a_trial = sum(ticket.trial == 0 for ticket in tickets)
-        turn = 1 if a_trial % self.of == 0 else 0  # without a turn, each part would always get the same optimizers
-        return [t for index, t in enumerate(tickets) if (index + turn * t.trial) % self.of == self.number - 1]
+        a_round = sum(ticket.trial == 0 and ticket.instance == FIRST for ticket in tickets)
+        turn = 1 if a_round % self.of == 0 else 0  # without a turn, each part would always get the same optimizers
+        turns = [turn * (ticket.trial + ticket.instance - FIRST) for ticket in tickets]
+        return [t for index, t in enumerate(tickets) if (index + turns[index]) % self.of == self.number - 1]
 
 
 def merge(folders: Sequence[Path], out: Path) -> int:
@@ -56,7 +59,7 @@ def merge(folders: Sequence[Path], out: Path) -> int:
     if out.exists():
         raise UserError(str(out), "exists already. Choose another folder with --out.")
     study = _same_study(folders)
-    found: dict[tuple[str, str, int], tuple[Path, Outcome]] = {}
+    found: dict[Trial, tuple[Path, Outcome]] = {}
     for folder in folders:
         for outcome in _outcomes(folder):
             before = found.setdefault(outcome.key, (folder, outcome))

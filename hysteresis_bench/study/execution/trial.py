@@ -15,6 +15,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model, Optimizer
+from hysteresis_bench.errors import UserError, told
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.behaviour import BrokenPromise, broken_promises
 from hysteresis_bench.fit.loss import LOSSES
@@ -23,7 +24,9 @@ from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, seed_of, shared_start
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_bench.study.origin import origin, plugins_of_problem, plugins_of_trial
+from hysteresis_bench.study.instances import instance_key
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
+from hysteresis_bench.study.origin import Trial, origin, plugins_of_problem, plugins_of_trial
 from hysteresis_bench.study.problems import Built, build_problem
 from hysteresis_bench.study.store import Outcome
 from hysteresis_bench.study.study_file import Study
@@ -42,21 +45,31 @@ class Ticket:
     optimizer: str
     trial: int
     alone: bool = False
+    instance: int = FIRST
 
     @property
-    def key(self) -> tuple[str, str, int]:
-        return self.problem, self.optimizer, self.trial
+    def key(self) -> Trial:
+        return self.problem, self.optimizer, self.instance, self.trial
+
+    def ended(self, study: Study, status: str, reason: str = "") -> Outcome:
+        """Its outcome, as far as it has no result."""
+        seed = seed_of(*seed_key(study, self))[:16]
+        return Outcome(self.problem, self.optimizer, self.trial, seed, status, reason, instance=self.instance)
+
+
+class NoInstance(Exception):
+    """An instance of a problem that its constants make impossible: every trial on it fails, on any machine."""
 
 
 def seed_key(study: Study, ticket: Ticket) -> tuple[object, ...]:
     """What the optimizer's random numbers depend on."""
-    return study.seed, ticket.problem, ticket.optimizer, ticket.trial
+    return study.seed, ticket.problem, ticket.optimizer, *instance_key(ticket.instance), ticket.trial
 
 
 def prepare_trial(ticket: Ticket) -> Callable[[], Outcome]:
     """Everything that a trial needs but its search: the study, the data, the compiled problem, the optimizer."""
     study = _study(ticket.study)
-    built = _built(ticket.study, ticket.folder, ticket.problem)
+    built = _built(ticket.study, ticket.folder, ticket.problem, ticket.instance)
     spec = next(spec for spec in study.optimizer if spec.name == ticket.optimizer)
     optimizer = registry.build("optimizers", spec.plugin, spec.settings)
     return partial(run_trial, ticket, built, optimizer, study.budget_of(spec))
@@ -65,18 +78,17 @@ def prepare_trial(ticket: Ticket) -> Callable[[], Outcome]:
 def run_trial(ticket: Ticket, built: Built, optimizer: Optimizer, budget: int) -> Outcome:
     """Search, then measure the best point on the fitted and on the held-out records."""
     study, problem = _study(ticket.study), built.problem
-    start = shared_start(problem.space.dimension, study.seed, ticket.problem, ticket.trial)
+    dimension, instance = problem.space.dimension, instance_key(ticket.instance)
+    start = shared_start(dimension, study.seed, ticket.problem, *instance, ticket.trial)
     key = seed_key(study, ticket)
 
     begun = time.process_time()  # of this process alone: what else the machine does is not the optimizer's cost
     found = search(problem, optimizer, budget=budget, start=start, rng=generator(*key))
     seconds = time.process_time() - begun
 
-    ended = Outcome(
-        *ticket.key,
-        seed=seed_of(*key)[:16],
-        status="done" if found.spent else "finished-early",
-        reason="" if found.spent else f"returned after {found.evaluations} of {budget} evaluations",
+    early = "" if found.spent else f"returned after {found.evaluations} of {budget} evaluations"
+    ended = replace(
+        ticket.ended(study, "finished-early" if early else "done", early),
         evaluations=found.evaluations,
         seconds=seconds,
         origin=_origin(ticket.study, ticket.problem, ticket.optimizer),
@@ -100,7 +112,8 @@ def run_trial(ticket: Ticket, built: Built, optimizer: Optimizer, budget: int) -
 
 
 def tickets_of(study: Study, data: Path, trials: int) -> list[Ticket]:
-    """Every trial of a study, one trial of everything after the other: one that is stopped has as much of all.
+    """Every trial of a study, one trial of everything after the other, on every instance before the next: one that is
+    stopped has as much of all.
 
     data : the folder where relative data files are looked for
     """
@@ -111,7 +124,14 @@ def tickets_of(study: Study, data: Path, trials: int) -> list[Ticket]:
         for problem in study.problem
         for label in problem.optimizers or study.labels
     }
-    return [Ticket(text, folder, *pair, trial, alone) for trial in range(trials) for pair, alone in strange.items()]
+    instances = {spec.name: study.instances_of(spec) for spec in study.problem}
+    return [
+        Ticket(text, folder, problem, label, trial, alone, instance)
+        for trial in range(trials)
+        for instance in range(FIRST, FIRST + max(instances.values()))
+        for (problem, label), alone in strange.items()
+        if instance - FIRST < instances[problem]
+    ]
 
 
 def needs_own_process(ticket: Ticket) -> bool:
@@ -130,7 +150,7 @@ def rehearsals(tickets: Sequence[Ticket]) -> list[Callable[[], object]]:
     return [
         partial(_study, first.study),
         partial(origin, ()),
-        *(partial(_built, first.study, first.folder, problem) for problem in problems),
+        *(partial(_built, first.study, first.folder, problem, FIRST) for problem in problems),
         *(partial(_rehearse, spec.plugin, spec.settings) for spec in ours),
     ]
 
@@ -168,11 +188,16 @@ def _origin(text: str, problem: str, optimizer: str) -> str:
 
 
 @lru_cache(maxsize=32)
-def _built(text: str, folder: str, problem: str) -> Built:
+def _built(text: str, folder: str, problem: str, instance: int) -> Built:
     """The problem, kept for the worker's next trials; simulated once, so that no trial pays for compilation."""
     study = _study(text)
     spec = next(spec for spec in study.problem if spec.name == problem)
-    built = build_problem(spec, study.seed, Path(folder))
+    try:
+        built = build_problem(spec, study.seed, Path(folder), instance)
+    except (UserError, ValueError) as error:
+        if instance == FIRST:
+            raise
+        raise NoInstance(f"instance {instance} cannot be simulated: {told(error)}") from None
     foreign = not all(plugin.shipped for plugin in plugins_of_problem(spec))  # our own are tested
     if foreign and (broken := broken_promises(built.problem.system, built.dataset.fitted)):
         raise BrokenPromise(" ".join(broken))

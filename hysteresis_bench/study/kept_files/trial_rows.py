@@ -19,8 +19,36 @@ STATUSES = (
 FINISHED = ("done", "finished-early")
 """Statuses of a trial that has a result."""
 
-KEY = ("problem", "optimizer", "trial")
-NUMBERS = ("trial", "evaluations", "fitness", "rmse", "relative_rms", "max_error", "held_out_rmse", "seconds")
+KEY = ("problem", "optimizer", "instance", "trial")
+NUMBERS = (
+    "instance",
+    "trial",
+    "evaluations",
+    "fitness",
+    "rmse",
+    "relative_rms",
+    "max_error",
+    "held_out_rmse",
+    "seconds",
+)
+
+
+FIRST = 1
+"""The instance that is the rig as it stands, or the data; the only one where a study asks for no more."""
+
+
+def with_instances(trials: pd.DataFrame) -> pd.DataFrame:
+    """A table as it is kept, with the column that it lacks where all of it is of the first instance."""
+    if "instance" in trials.columns:
+        return trials
+    whole = trials.copy()
+    whole.insert(list(whole.columns).index("optimizer") + 1, "instance", FIRST)
+    return whole
+
+
+def as_kept(trials: pd.DataFrame) -> pd.DataFrame:
+    """Without the column `instance` where all of it is of the first one."""
+    return trials.drop(columns="instance") if (trials["instance"] == FIRST).all() else trials
 
 
 def check_rows(trials: pd.DataFrame) -> None:
@@ -36,7 +64,7 @@ def check_rows(trials: pd.DataFrame) -> None:
             raise ValueError(f"{name} is no number in row {int(np.argmax(np.isinf(numbers))) + 1}")
     if (trials["status"].isin(FINISHED) & trials["fitness"].isna()).any():
         raise ValueError("a finished trial has no fitness")
-    if trials.duplicated(list(KEY)).any() or trials["trial"].isna().any():
+    if trials.duplicated(list(KEY)).any() or trials[["instance", "trial"]].isna().any(axis=None):
         raise ValueError("a trial stands there twice, or has no number")
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.signals import Dataset, Record
@@ -48,6 +49,19 @@ class RigContract(PluginContract):
                 expect(same, f"{experiment} gives other data with the same generator; draw all noise from `rng`.")
             expect(len(set(dataset.names)) == len(dataset.names), f"{experiment}: two records share a name.")
             expect(isinstance(dataset.hidden, Mapping), f"{experiment}: `hidden` is no mapping of names.")
+
+    def test_its_ranges_make_rigs(self, plugin: str) -> None:
+        """Every constant that differs between instances is a number among its settings, lies in its range as it
+        stands, and makes a rig at either end."""
+        built = self.build(plugin)
+        for name, found in built.ranges.items():
+            stands = getattr(built, name, None)
+            expect(isinstance(stands, float), f"ranges names {name!r}, which is no setting that is a number.")
+            inside = found.lower <= stands <= found.upper and found.lower < found.upper
+            expect(inside, f"{name} = {stands} is not within its range, {found.lower} to {found.upper}.")
+            for end in (found.lower, found.upper):
+                faults = registry.faults("rigs", plugin, {name: end})
+                expect(not faults, f"{name} = {end} makes no rig: {' '.join(faults)}")
 
     def test_it_refuses_what_it_does_not_know(self, plugin: str) -> None:
         """An unknown experiment raises ValueError that names the known ones."""

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import SteppedRig
+from hysteresis_bench.contracts import Range, SteppedRig
 from hysteresis_bench.signals import Dataset, Record
 
 if TYPE_CHECKING:
@@ -41,6 +41,10 @@ class PeaRig(SteppedRig):
     Settings are V, um, s, Hz. Effects are switched off by hysteresis, saturation, asymmetry, creep, bandwidth,
     natural_frequency, noise or resolution = 0. Raises ValueError that tells all settings that make no rig.
 
+    The gain, the stage's resonance and damping are [PEA]'s own results, and hysteresis and half_width were chosen so
+    that its alpha, beta and gamma come near: a fit that finds the paper's values here proves nothing. `ranges` says how
+    far each differs from one actuator to the next.
+
     [PEA] the PEA paper: particle swarm genetic hybrid, Hammerstein model
     [K] Kuhnen, Eur. J. Control 9 (2003) 407-418: the Prandtl-Ishlinskii approach
     [J] Jung and Gweon, Rev. Sci. Instrum. 71 (2000) 1896-1900: creep of piezoelectric actuators
@@ -60,6 +64,23 @@ class PeaRig(SteppedRig):
         "complex": "10, 20, 30, 40 and 50 Hz together, 0.5 V each, 6000 samples",
     }
 
+    ranges: ClassVar[Mapping[str, Range]] = MappingProxyType(
+        {
+            "amplitude": Range(2.2, 2.8, "V; the drive: [PEA] prints none"),
+            "gain": Range(0.94, 1.15, "um/V; makers promise the stroke to 10 %"),
+            "hysteresis": Range(0.35, 0.55, "share; soft ceramics, by make and poling"),
+            "half_width": Range(0.7, 1.0, "V; as the share"),
+            "saturation": Range(10.0, 25.0, "um; the loss of stroke within a factor of 2"),
+            "asymmetry": Range(0.002, 0.010, "1/um; preload and poling"),
+            "creep": Range(0.010, 0.020, "share a decade; makers' notes: 1 to 2 %"),
+            "bandwidth": Range(700.0, 1300.0, "Hz; the capacitance of the stack, and the amplifier's load"),
+            "natural_frequency": Range(72.0, 88.0, "Hz; the mass on the stage, within a fifth"),
+            "damping_ratio": Range(0.42, 0.58, "the damper's oil, by temperature"),
+            "noise": Range(0.002, 0.004, "um; strain gauges and their amplifiers"),
+        }
+    )
+
+    amplitude: float = AMPLITUDE  # V, of every experiment
     gain: float = 1.046  # um/V, [PEA] Table 2, d: response of the fully driven ceramic
     hysteresis: float = 0.45  # share of the gain that has memory; ours, so that alpha comes near [PEA] Table 2
     half_width: float = 0.85  # V, mean of the play operators; ours, so that beta + gamma comes near it
@@ -75,7 +96,7 @@ class PeaRig(SteppedRig):
     step: float = 1e-4  # s, longest internal step; ours: halving it changes the 50 Hz displacement below 1 nm
 
     def __post_init__(self) -> None:
-        positive = {"gain", "half_width", "damping_ratio", "voltage_limit", "step"}
+        positive = {"amplitude", "gain", "half_width", "damping_ratio", "voltage_limit", "step"}
         found = []
         for field in fields(self):
             value = getattr(self, field.name)
@@ -101,7 +122,8 @@ class PeaRig(SteppedRig):
         """Time in s and voltage in V of an experiment. Raises ValueError for an unknown one."""
         if experiment not in _DRIVES:
             raise ValueError(f'no experiment "{experiment}". Known: {", ".join(self.experiments)}')
-        return _DRIVES[experiment]()
+        time, voltage = _DRIVES[experiment]()
+        return time, voltage * (self.amplitude / AMPLITUDE)
 
     def simulate(self, time: Array, voltage: Array) -> Array:
         """The true displacement in um from rest; time : (samples,) s, voltage : (samples,) V, linear between

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
+from types import MappingProxyType
 from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Rig
+from hysteresis_bench.contracts import Range, Rig
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_plugins.rigs._sma_mechanics import Physics, mechanics
 
@@ -43,7 +44,8 @@ class SmaRig(Rig):
     (the effect input-lag) is what a model of angle over reading lacks. The thermocouple's own `sensor_lag`
     works the other way and is small. With wire_lag = 0 jacket and wire are one body, as in a wire that
     is heated by its own current: then only sensor_lag separates the reading from the truth, and the
-    reading lags.
+    reading lags. With a slow sensor, wire_lag = 0 and sensor_lag = 3.4, Jiles-Atherton takes values near the
+    published ones (alpha 1e-14, a 9, M_s 2.3e7, c above 1), which it does not on the rig as it stands.
 
     Phases. The cosine law of [LR] with transformation temperatures that rise with the stress. It has memory
     through one number a direction: at every reversal the curve of the new direction is scaled to pass
@@ -63,6 +65,10 @@ class SmaRig(Rig):
     settings that make no rig. Effects are switched off by wire_lag, sensor_lag, latent_heat, temperature_noise,
     angle_noise or angle_resolution = 0.
 
+    Of these constants [SMA] gives wire, supply, duty and temperatures only. The lags and the heat loss follow from
+    dimensions; the alloy's temperatures were placed by us. `ranges` says how far each differs from one joint to the
+    next: between the ends of any two, cooling still transforms below heating and the cold joint is at rest.
+
     [SMA] Jiles-Atherton based hysteresis identification of shape memory alloy-actuating compliant mechanism
           via modified particle swarm optimization algorithm
     [LR]  Liang and Rogers, J. Intell. Mater. Syst. Struct. 1 (1990) 207-234
@@ -79,6 +85,28 @@ class SmaRig(Rig):
         "steps": "heating power in steps of a quarter, up and down, each held for 40 s",
     }
 
+    ranges: ClassVar[Mapping[str, Range]] = MappingProxyType(
+        {
+            "supply": Range(4.8, 5.2, "V; the drive: a supply within 4 %"),
+            "resistance": Range(9.2, 10.2, "ohm; heating films are wound to 5 %"),
+            "convection": Range(0.17, 0.24, "W/(m K); free convection depends on draught and on how the tube lies"),
+            "wire_lag": Range(2.7, 4.1, "s; the wire lies in the middle of its tube, or nearer to its side"),
+            "sensor_lag": Range(0.1, 0.4, "s; size and glue of the bead"),
+            "martensite_finish": Range(-20.0, -16.0, "degC; a tenth of a per cent of nickel shifts it by 10 K"),
+            "martensite_start": Range(15.0, 18.0, "degC; alloy and training"),
+            "austenite_start": Range(
+                -2.0, 1.0, "degC; alloy and training; any lower and the cold joint is not at rest"
+            ),
+            "austenite_finish": Range(28.5, 33.0, "degC; alloy and training"),
+            "transformation_strain": Range(0.035, 0.043, "what a trained wire strains after many cycles"),
+            "prestress": Range(32e6, 40e6, "Pa; set by hand"),
+            "anchor_stiffness": Range(1600.0, 2400.0, "N/m; compliant couplers within a fifth"),
+            "torsion_stiffness": Range(4e-3, 6e-3, "N m/rad; springs of one make, within a fifth"),
+            "angle_noise": Range(0.03, 0.07, "deg; potentiometers and their wiring"),
+        }
+    )
+
+    supply: float = SUPPLY  # V, [SMA] section 2
     ambient: float = 0.0  # degC; ours: the cold end of the range in [SMA]
 
     resistance: float = 9.7  # ohm, heating film; ours: 5 V settle near 60 degC
@@ -127,6 +155,7 @@ class SmaRig(Rig):
         if experiment not in self.experiments:
             raise ValueError(f'no experiment "{experiment}". Known: {", ".join(self.experiments)}')
         time, voltage = _DRIVES[experiment]()
+        voltage = voltage * (self.supply / SUPPLY)
         truth = self.simulate(time, voltage)
         reading = truth.reading + self.temperature_noise * rng.standard_normal(time.size)
         angle = truth.angle + self.angle_noise * rng.standard_normal(time.size)

@@ -1,0 +1,63 @@
+"""Other targets and budgets than the study's: does the answer hang on where success begins, or when one stops?"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench import statistics
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.report.shared.blocks import Cell, Table
+from hysteresis_bench.report.shared.page import Section
+from hysteresis_bench.report.shared.text import number, percent, whole
+from hysteresis_bench.report.trials.problem import Problem
+
+EXCESSES = (0.001, 0.01, 0.03, 0.1)
+"""Shares above the best known at which success may begin."""
+SHARES = (0.1, 0.3, 1.0)
+"""Of the budget, at which one may stop."""
+
+
+def section(problems: Sequence[Problem], budget: int) -> Section | None:
+    """None where every trial failed."""
+    tables = [_table(problem, budget) for problem in problems if not problem.failed]
+    how = (
+        "Success may begin elsewhere than 1 % above the best known of an instance, and a search may be stopped "
+        "earlier. Trials that come so near; evaluations spent for each that does (ERT); median fitness over the best "
+        "known after a share of the budget."
+    )
+    return Section("targets", "At other targets, and stopped earlier", [how, *tables]) if tables else None
+
+
+def _table(problem: Problem, budget: int) -> Table:
+    rows: list[list[str | Cell]] = []
+    for label in problem.ranked:
+        ratios = problem.ratios(label)
+        row: list[str | Cell] = [label, *(percent(np.mean(ratios <= 1.0 + excess), 3) for excess in EXCESSES)]
+        if problem.traces:
+            row += [whole(_running_time(problem, label, excess)) for excess in EXCESSES[1:]]
+            row += [number(_after(problem, label, round(share * budget)), 4, "none yet") for share in SHARES]
+        rows.append(row)
+    header = ["Optimizer", *(f"Within {percent(excess)}" for excess in EXCESSES)]
+    if problem.traces:
+        header += [f"ERT to {percent(excess)}" for excess in EXCESSES[1:]]
+        header += [f"At {percent(share)} of the budget" for share in SHARES]
+    return Table(f"{problem.name}: other targets and budgets", header, rows)
+
+
+def _running_time(problem: Problem, label: str, excess: float) -> float:
+    targets = (1.0 + excess) * problem.known(label)
+    hits = [problem.first_below(label, key, target) for key, target in zip(problem.keys(label), targets, strict=True)]
+    spent = pd.to_numeric(problem.rows[label]["evaluations"]).to_numpy(dtype=float, na_value=0.0)
+    return statistics.expected_running_time(hits, spent)
+
+
+def _after(problem: Problem, label: str, evaluations: int) -> float:
+    """Median fitness over the best known after so many evaluations."""
+    count = np.array([evaluations])
+    best: Array = np.array([problem.best_at(label, key, count)[0] for key in problem.keys(label)])
+    known = problem.known(label)
+    over = np.divide(best, known, out=np.full(best.size, np.inf), where=(known > 0.0) & np.isfinite(known))
+    return statistics.quantile(problem.per_block(label, np.maximum(over, 1.0)), 0.5)

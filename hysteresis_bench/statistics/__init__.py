@@ -1,0 +1,49 @@
+"""Statistics of repeated trials: arrays in, numbers out; no plugin, no file, no study.
+
+Lower is better throughout. A trial that failed is +inf and so ranks as worst; two failures tie. No answer is NaN:
+identical samples give p = 1 and A12 = 0.5. An instance of a problem is a block of every test and interval; a trial
+within it is a repeat. Where there is one instance, its trials are the blocks, and what is found holds for it alone.
+"""
+
+from hysteresis_bench.statistics.comparison import (
+    CANNOT_TELL,
+    SAME,
+    TOO_FEW,
+    Comparison,
+    Sample,
+    compare,
+    compare_pairs,
+)
+from hysteresis_bench.statistics.description import ecdf, expected_running_time, quantile, wilson
+from hysteresis_bench.statistics.effect_size import a12, a12_interval, magnitude
+from hysteresis_bench.statistics.equivalence import REGION, Practical, practical
+from hysteresis_bench.statistics.ranks import ENOUGH, LEVEL, Friedman, friedman, holm, wilcoxon
+from hysteresis_bench.statistics.resampling import median_interval, running_time_interval
+
+__all__ = [
+    "CANNOT_TELL",
+    "ENOUGH",
+    "LEVEL",
+    "REGION",
+    "SAME",
+    "TOO_FEW",
+    "Comparison",
+    "Friedman",
+    "Practical",
+    "Sample",
+    "a12",
+    "a12_interval",
+    "compare",
+    "compare_pairs",
+    "ecdf",
+    "expected_running_time",
+    "friedman",
+    "holm",
+    "magnitude",
+    "median_interval",
+    "practical",
+    "quantile",
+    "running_time_interval",
+    "wilcoxon",
+    "wilson",
+]

@@ -1,0 +1,82 @@
+"""Tests on ranks: Wilcoxon signed rank, Friedman, Holm's correction.
+
+[1] M. Friedman, J. Am. Stat. Assoc. 32 (1937) 675.
+[2] F. Wilcoxon, Biometrics Bull. 1 (1945) 80; J. W. Pratt, J. Am. Stat. Assoc. 54 (1959) 655 (zero differences).
+[3] S. Holm, Scand. J. Stat. 6 (1979) 65.
+[4] J. Demšar, J. Mach. Learn. Res. 7 (2006) 1: these tests for algorithms over many data sets.
+[5] S. García, F. Herrera, J. Mach. Learn. Res. 9 (2008) 2677: worked examples.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from hysteresis_bench.arrays import Array
+
+ENOUGH = 14
+"""Blocks below which no p-value is given: a handful of pairs cannot tell."""
+
+LEVEL = 0.05
+"""Level of significance, after Holm's correction."""
+
+
+def differences(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> Array:
+    """ours - theirs of paired values, (blocks,) each, all finite.
+
+    A pair with one failure is beyond every other difference; a pair of failures, or of values within `tie`, is 0.
+    """
+    x, y = np.asarray(ours, dtype=float), np.asarray(theirs, dtype=float)
+    found = np.subtract(x, y, out=np.zeros(x.shape), where=x != y)
+    found[np.abs(found) <= tie] = 0.0
+    finite = np.isfinite(found)
+    beyond = 2.0 * np.max(np.abs(found[finite]), initial=0.0) + 1.0
+    whole: Array = np.where(finite, found, np.sign(found) * beyond)
+    return whole
+
+
+def wilcoxon(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
+    """[2] Two-sided signed-rank p of paired values, (blocks,) each; zero differences after Pratt."""
+    from scipy import stats
+
+    found = differences(ours, theirs, tie)
+    return float(stats.wilcoxon(found, zero_method="pratt").pvalue) if np.any(found) else 1.0
+
+
+def holm(p: Sequence[float]) -> list[float]:
+    """[3] Step-down corrected p-values, in the order given."""
+    values = np.asarray(p, dtype=float)
+    order = np.argsort(values, kind="stable")
+    factors = values.size - np.arange(values.size)
+    corrected = np.empty_like(values)
+    corrected[order] = np.minimum(np.maximum.accumulate(values[order] * factors), 1.0)
+    return [float(value) for value in corrected]
+
+
+@dataclass(frozen=True)
+class Friedman:
+    """Do any of the samples differ? mean_ranks in the order given, 1 is best."""
+
+    statistic: float
+    p: float | None
+    mean_ranks: list[float]
+
+
+def friedman(samples: Sequence[ArrayLike]) -> Friedman:
+    """[1] samples : k of (blocks,), the same blocks in the same order; no p below ENOUGH blocks."""
+    from scipy import stats
+
+    blocks = np.array([np.asarray(sample, dtype=float) for sample in samples]).T  # (blocks, k)
+    count, k = blocks.shape
+    ranks = np.array([stats.rankdata(block) for block in blocks]).reshape(count, k)
+    mean_ranks = [float(rank) for rank in ranks.mean(axis=0)] if count else [float("nan")] * k
+    varies = count > 0 and bool(np.any(ranks != ranks[:, :1]))
+    if k < 3 or count < ENOUGH:
+        return Friedman(0.0, None, mean_ranks)
+    if not varies:
+        return Friedman(0.0, 1.0, mean_ranks)
+    statistic, p = stats.friedmanchisquare(*ranks.T)
+    return Friedman(float(statistic), float(p), mean_ranks)
