@@ -1,0 +1,52 @@
+"""Rate independence: the same way at another speed gives the same output."""
+
+from __future__ import annotations
+
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
+from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, evenly, places, read, unlike
+from hysteresis_bench.diagnosis.structure.course import DEPTH, Branch, Course
+from hysteresis_bench.diagnosis.structure.finding import Finding, told
+
+FASTER = 1.2
+"""Ratio of speeds from which they count as different."""
+
+
+def rate_independence(course: Course) -> Finding:
+    """Branches with the same reversals before them, run at different speeds; each record has an offset."""
+    untimed = not all(view.record.timed for view in course.views)
+    return told(
+        "rate independence",
+        course,
+        None if untimed else _found(course),
+        differ="the same way at different speeds differs by",
+        why="no law that is rate-independent follows it alone: a lag, creep or eddy currents around it may",
+        without="Time is only an index here: speeds cannot be compared."
+        if untimed
+        else "No way of the input was gone at two speeds: rate independence cannot be tested.",
+        along="input",
+    )
+
+
+def _found(course: Course) -> Unlike | None:
+    groups = [group for group in alike(course, course.branches, _memory) if _speeds(group)]
+    cells: list[Cell] = []
+    for number, group in enumerate(groups):
+        for branch in evenly(group, len(groups)):
+            for at in places(float(branch.u.min()), float(branch.u.max()), course.field).tolist():
+                weights = read(branch, branch.u, at, course.field)
+                if weights is not None:
+                    place = (number, round(at / course.field, 3))
+                    cells.append(Cell(branch, weights, place, branch.record, at))
+    return unlike(course, cells, mismatch(course, groups, _memory))
+
+
+def _speeds(group: list[Branch]) -> bool:
+    speeds = [branch.speed for branch in group]
+    return len(group) > 1 and max(speeds) > FASTER * min(speeds)
+
+
+def _memory(branch: Branch) -> tuple[float, ...]:
+    """The reversals before, at most DEPTH of them; how many there are; the direction."""
+    far = 1e6 * (1.0 + max(abs(value) for value in branch.past))
+    known = branch.past[:DEPTH]
+    return (*known, *(0.0,) * (DEPTH - len(known)), len(known) * far, branch.way * far)

@@ -1,0 +1,85 @@
+"""Sense: do the loops run clockwise or anticlockwise, output over input?"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.structure.course import Branch, Course
+from hysteresis_bench.diagnosis.structure.finding import LEVEL, Finding
+
+THIN = 2e-3
+"""Share of the rectangle around a loop below which its area says nothing."""
+COARSE = 0.3
+"""A step of the input beyond this share of its range leaves out a branch."""
+
+
+def sense(course: Course) -> Finding:
+    """The sign of the area that the loops of every record enclose, over the rectangle around them."""
+    from scipy.stats import norm
+
+    areas, errors, records = [], [], []
+    for number in range(len(course.views)):
+        rows = [row for _, row in loops(course, number)]
+        if rows:
+            whole = np.sum(rows, axis=0)
+            areas.append(float(whole @ course.y) / len(rows))
+            errors.append(float(np.sqrt(course.noise.covariance(whole[None])[0, 0])) / len(rows))
+            records.append(course.views[number].record.name)
+    if not areas:
+        return Finding("sense", "No loop closes: its sense cannot be told.")
+    box = course.span_u * course.span_y
+    slack = THIN * box
+    z = [abs(area) / np.hypot(error, slack) for area, error in zip(areas, errors, strict=True)]
+    signs = [int(np.sign(area)) if 2.0 * norm.sf(one) < LEVEL else 0 for area, one in zip(areas, z, strict=True)]
+    strongest = int(np.argmax(z))
+    p, share = float(2.0 * norm.sf(z[strongest])), 100.0 * areas[strongest] / box
+    return Finding("sense", _words(signs, records, share, p), share, p, along="input")
+
+
+def _words(signs: list[int], records: list[str], share: float, p: float) -> str:
+    clockwise, other = ([name for name, sign in zip(records, signs, strict=True) if sign == one] for one in (-1, 1))
+    if clockwise and other:
+        return (
+            f"loops run clockwise in {_some(clockwise)} and anticlockwise in {_some(other)}: no law with one set of "
+            "parameters follows both, unless its loops cross."
+        )
+    if not clockwise and not other:
+        return f"the loops enclose {abs(share):.2g} % of the rectangle around them (p = {p:.2g}): they have no sense."
+    side = "clockwise, output over input, as a force over a displacement" if clockwise else "anticlockwise"
+    return f"the loops run {side}, and enclose {abs(share):.2g} % of the rectangle around them."
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
+
+
+def loops(course: Course, number: int) -> list[tuple[float, Array]]:
+    """Half the range, and the samples' weights that give the enclosed area, of every loop that the input closes.
+
+    A loop goes from the input's middle, rising, to the next time that it rises through the same value. Anticlockwise
+    loops have positive areas; weights : (samples of all records,)
+    """
+    own = [branch for branch in course.branches if branch.record == number and branch.order]
+    found = []
+    for up, down, next_up in zip(own[:-2], own[1:-1], own[2:], strict=True):
+        if up.way < 0 or np.max(np.abs(np.diff(np.concatenate([up.u, down.u])))) > COARSE * course.span_u:
+            continue
+        row = _area(course, up, down, next_up)
+        if row is not None:
+            found.append((0.5 * abs(down.start - next_up.start), row))
+    return found
+
+
+def _area(course: Course, up: Branch, down: Branch, next_up: Branch) -> Array | None:
+    level = 0.5 * (down.start + next_up.start)
+    first, last = np.flatnonzero(up.u >= level), np.flatnonzero(next_up.u >= level)
+    if not (first.size and last.size and up.u[0] < level):
+        return None
+    samples = np.concatenate([up.samples[first[0] :], down.samples[1:], next_up.samples[1 : last[0] + 1]])
+    u = np.concatenate([up.u[first[0] :], down.u[1:], next_up.u[1 : last[0] + 1]])
+    closed = np.append(u, u[0])
+    steps = np.diff(closed)
+    row = np.zeros(course.y.size)
+    row[samples] = -0.5 * (steps + np.roll(steps, 1))
+    return row
