@@ -36,6 +36,7 @@ class Finding:
     statistic : in % of the output's range, or what `unit` says; NaN where the data do not allow the test
     p : of the noise alone;  words : a sentence with the consequence, or why there is no test
     least : RMSE that a law which has the property leaves at least on these records, unit of the output
+    mixed : records answer differently
     curves : what a small picture shows, (x, y) each;  along : what x is
     """
 
@@ -45,6 +46,7 @@ class Finding:
     p: float = np.nan
     least: float = 0.0
     unit: str = "%"
+    mixed: bool = False
     curves: tuple[tuple[Array, Array], ...] = ()
     along: str = ""
 

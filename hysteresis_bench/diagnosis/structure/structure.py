@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import get_args
+
+import numpy as np
 
 from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.structure.course import Course, course
@@ -42,8 +45,17 @@ class Structure:
     def of(self, name: Name) -> Finding:
         return next(finding for finding in self.findings if finding.name == name)
 
+    @property
+    def side(self) -> int:
+        """1 where all loops run anticlockwise, output over input, -1 clockwise; 0 where they do not say."""
+        found = self.of("sense")
+        return int(np.sign(found.statistic)) if found.refutes and not found.mixed else 0
+
 
 def structure(views: Sequence[View]) -> Structure:
-    """Of these records together. Raises ValueError where input or output never moves."""
+    """Of these records together."""
+    if not any(np.ptp(view.u) * np.ptp(view.y) for view in views):
+        still = "The input or the output never moves: nothing can be asked."
+        return Structure(tuple(Finding(name, still) for name in get_args(Name)))
     seen = course(views)
     return Structure(tuple(test(seen) for test in TESTS))

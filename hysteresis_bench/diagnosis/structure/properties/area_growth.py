@@ -43,7 +43,7 @@ def area_growth(course: Course) -> Finding:
     order = np.argsort(x)
     curve = (np.exp(x[order]), np.exp(y[order]))
     words = f"the area grows with the amplitude to the power {exponent:.2g} ± {error:.1g}: {_regime(exponent)}."
-    return Finding("growth of the area", words, exponent, p, 0.0, "", (curve,), "amplitude")
+    return Finding("growth of the area", words, exponent, p, unit="", curves=(curve,), along="amplitude")
 
 
 def _regime(exponent: float) -> str:

@@ -34,7 +34,15 @@ def sense(course: Course) -> Finding:
     signs = [int(np.sign(area)) if 2.0 * norm.sf(one) < LEVEL else 0 for area, one in zip(areas, z, strict=True)]
     strongest = int(np.argmax(z))
     p, share = float(2.0 * norm.sf(z[strongest])), 100.0 * areas[strongest] / box
-    return Finding("sense", _words(signs, records, share, p), share, p, along="input")
+    mixed = {-1, 1} <= {*signs}
+    words = _words(signs, records, share, p)
+    return Finding("sense", words, share, p, mixed=mixed, curves=_pictured(course), along="input")
+
+
+def _pictured(course: Course, most: int = 4) -> tuple[tuple[Array, Array], ...]:
+    """Records, their whole way, at most so many samples of each."""
+    parts = [(view.u, view.y) for view in course.views[:most]]
+    return tuple((u[:: 1 + u.size // 600], y[:: 1 + y.size // 600]) for u, y in parts)
 
 
 def _words(signs: list[int], records: list[str], share: float, p: float) -> str:
