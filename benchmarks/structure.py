@@ -32,13 +32,16 @@ RUNS = ((1.0, 1.0), (0.6, 1.0), (1.0, 2.0))
 """Amplitude, as a share of the law's own, and frequency of the records of one case."""
 LEVELS = (0.001, 0.003, 0.01)
 DECAYS = (0.0, 0.9)
-SAMPLES = (150, 700)
+SAMPLES = (250, 700)
 MISSED = 1.0
 ALARM = 0.01
 
 ASKS: Mapping[Name, Property] = {
+    "reversal lag": "rate-independent",
+    "closure": "return-point",
     "odd symmetry": "odd",
     "Masing's rule": "masing",
+    "rising and falling branches": "masing",
     "return-point memory": "return-point",
     "congruency": "congruent",
     "rate independence": "rate-independent",

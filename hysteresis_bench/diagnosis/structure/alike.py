@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.structure.course import Branch, Course
+from hysteresis_bench.diagnosis.structure.course import DEPTH, Branch, Course
 
 MATCH = 0.005
 """Share of the input's range within which two reversals count as the same."""
@@ -33,3 +33,14 @@ def mismatch(course: Course, groups: Sequence[Sequence[Branch]], key: Callable[[
     """What unequal reversals make of the output: their RMS by the ratio of the ranges, unit of the output."""
     spread = [np.std([key(branch) for branch in group], axis=0) for group in groups if len(group) > 1]
     return float(np.sqrt(np.mean(np.square(spread)))) * course.span_y / course.span_u if spread else 0.0
+
+
+def remembered(branch: Branch) -> tuple[float, ...]:
+    """The reversals before it, at most DEPTH, nulls where there are fewer; and how many, of the size of an input."""
+    known = branch.past[:DEPTH]
+    return (*known, *(0.0,) * (DEPTH - len(known)), len(known) * apart(branch))
+
+
+def apart(branch: Branch) -> float:
+    """What keeps keys from being the same, where it is added to an input."""
+    return 1e6 * (1.0 + max(abs(value) for value in branch.past))

@@ -10,8 +10,9 @@ under the measured covariance is that of a chi-square variable of the same mean 
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -26,16 +27,21 @@ MOST = 24
 
 @dataclass(frozen=True, eq=False)
 class Cell:
-    """weights : of its branch's samples, (samples,);  place : what the law says is equal;  constant : what it leaves
-    free, None where nothing;  at : where a picture shows it, the input or the way since the reversal;  sign : of y
+    """weights : of its branch's samples, (samples,);  at : where, the input or the way since the reversal
+    group : cells of one group at one place are what the law says is equal;  constant : what it leaves free, None where
+    nothing;  sign : of the output
     """
 
     branch: Branch
     weights: Array
-    place: Hashable
-    constant: Hashable
     at: float
+    group: int
+    constant: Hashable = None
     sign: int = 1
+
+    @property
+    def place(self) -> tuple[int, float]:
+        return self.group, self.at
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,9 +70,18 @@ def read(branch: Branch, coordinate: Array, at: float, width: float) -> Array | 
     return weights
 
 
+def along(course: Course, branch: Branch, coordinate: Array, ends: tuple[float, float], **said: Any) -> Iterator[Cell]:
+    """The cells of a branch whose fields lie within the ends. coordinate : (samples,);  said : of every cell"""
+    for at in places(*ends, course.field).tolist():
+        weights = read(branch, coordinate, at, course.field)
+        if weights is not None:
+            yield Cell(branch, weights, at, **said)
+
+
 def places(low: float, high: float, width: float) -> Array:
-    """Centres of the fields that lie inside low to high, on a grid that all curves share."""
-    return width * (np.arange(np.ceil(low / width), np.floor(high / width)) + 0.5)
+    """Centres of the fields that lie inside low to high, on a grid that all curves share, rounded as one."""
+    centres: Array = np.round(np.arange(np.ceil(low / width), np.floor(high / width)) + 0.5, 1) * width
+    return centres
 
 
 def evenly(branches: Sequence[Branch], groups: int = 1) -> list[Branch]:

@@ -16,7 +16,7 @@ from hysteresis_bench.diagnosis.structure.colour import Colour, colour
 
 FINEST = 5e-4
 """Share of the output's range below which curves are alike whatever the noise: rounding and integration."""
-FIELDS = (8, 20)
+FIELDS = (6, 20)
 """Least and most fields into which the input's range is cut."""
 DENSE = 6
 """Samples of a typical branch in a field."""

@@ -1,8 +1,9 @@
-"""Records of formulas of our own, not of the shipped kernels: plays, Coleman-Hodgdon, a lag; and noise of two colours."""
+"""Records of formulas of our own, not of the shipped kernels: plays, Coleman-Hodgdon, a lag; noise of two colours."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from scipy.signal import lfilter
@@ -14,9 +15,10 @@ Response = Callable[[np.ndarray, np.ndarray], np.ndarray]
 """response(time, u) -> output"""
 
 CYCLES = 4.0
+RADII = np.linspace(0.03, 0.8, 25)
 
 
-def plays(radii=np.linspace(0.03, 0.8, 25), slope: float = 0.3) -> Response:
+def plays(radii: np.ndarray = RADII, slope: float = 0.3) -> Response:
     """A sum of plays, sample by sample."""
 
     def response(_time: np.ndarray, u: np.ndarray) -> np.ndarray:
@@ -34,7 +36,7 @@ def coleman_hodgdon(alpha: float = 4.0, loss: float = 0.5) -> Response:
 
     def response(_time: np.ndarray, u: np.ndarray) -> np.ndarray:
         y, found = 0.0, [0.0]
-        for begin, end in zip(u[:-1], u[1:], strict=True):
+        for begin, end in pairwise(u):
             for value in np.linspace(begin, end, 9)[:-1]:
                 step = (end - begin) / 8.0
                 y += alpha * abs(step) * (value - y) + (1.0 - loss) * step

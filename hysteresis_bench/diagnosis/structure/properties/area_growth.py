@@ -9,6 +9,7 @@ import numpy as np
 
 from hysteresis_bench.diagnosis.structure.course import Course
 from hysteresis_bench.diagnosis.structure.finding import Finding
+from hysteresis_bench.diagnosis.structure.properties.rate_independence import FASTER
 from hysteresis_bench.diagnosis.structure.properties.sense import THIN, loops
 
 WIDER = 1.3
@@ -22,10 +23,11 @@ def area_growth(course: Course) -> Finding:
     from scipy.stats import t
 
     found = [loop for number in range(len(course.views)) for loop in loops(course, number)]
-    sizes = np.array([size for size, _ in found])
+    sizes = np.array([size for size, _, _ in found])
     if sizes.size < 3 or sizes.max() < WIDER * sizes.min():
         return Finding("growth of the area", "The loops have one amplitude only: how their area grows cannot be told.")
-    rows = np.array([row for _, row in found])
+    rows = np.array([row for _, _, row in found])
+    durations = np.array([duration for _, duration, _ in found])
     areas = np.abs(rows @ course.y)
     errors = np.sqrt(np.einsum("ii->i", course.noise.covariance(rows)))
     errors = np.hypot(errors, 0.25 * THIN * course.span_y * sizes)  # what the way between the samples may add
@@ -33,13 +35,17 @@ def area_growth(course: Course) -> Finding:
     if np.count_nonzero(clear) < 3 or sizes[clear].max() < WIDER * sizes[clear].min():
         return Finding("growth of the area", "Too few loops enclose a clear area: how it grows cannot be told.")
     x, y, weight = np.log(sizes[clear]), np.log(areas[clear]), areas[clear] / errors[clear]
-    design = np.column_stack([np.ones_like(x), x])
+    design = np.column_stack([x, np.ones_like(x)])
+    slow = np.log(durations[clear])
+    if np.ptp(slow) > np.log(FASTER):  # a lag's area grows with the frequency as well
+        design = np.column_stack([design, slow])
+    degrees = x.size - int(np.linalg.matrix_rank(design * weight[:, None]))
     solution = np.linalg.lstsq(design * weight[:, None], y * weight, rcond=None)[0]
     left = (y - design @ solution) * weight
-    covariance = np.linalg.inv((design * weight[:, None]).T @ (design * weight[:, None]))
-    scatter = max(1.0, float(left @ left) / max(x.size - 2, 1))
-    exponent, error = float(solution[1]), float(np.sqrt(covariance[1, 1] * scatter))
-    p = float(2.0 * t.sf(abs(exponent - LINEAR) / error, max(x.size - 2, 1)))
+    covariance = np.linalg.pinv((design * weight[:, None]).T @ (design * weight[:, None]))
+    scatter = max(1.0, float(left @ left) / max(degrees, 1))
+    exponent, error = float(solution[0]), float(np.sqrt(covariance[0, 0] * scatter))
+    p = float(2.0 * t.sf(abs(exponent - LINEAR) / error, max(degrees, 1)))
     order = np.argsort(x)
     curve = (np.exp(x[order]), np.exp(y[order]))
     words = f"the area grows with the amplitude to the power {exponent:.2g} ± {error:.1g}: {_regime(exponent)}."

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
-from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, evenly, places, read, unlike
+from hysteresis_bench.diagnosis.structure.alike import alike, apart, mismatch
+from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
 
@@ -38,10 +38,7 @@ def _found(course: Course) -> Unlike | None:
         for branch in evenly(group, len(groups)):
             far = min(branch.depth, abs(float(branch.u[-1]) - branch.start))
             low, high = sorted((branch.start, branch.start + branch.way * far))
-            for at in places(low, high, course.field).tolist():
-                weights = read(branch, branch.u, at, course.field)
-                if weights is not None:
-                    cells.append(Cell(branch, weights, (number, round(at / course.field, 3)), id(branch), at))
+            cells += along(course, branch, branch.u, (low, high), group=number, constant=id(branch))
     return unlike(course, cells, mismatch(course, groups, _start))
 
 
@@ -50,5 +47,4 @@ def _shifted(course: Course, group: list[Branch]) -> bool:
 
 
 def _start(branch: Branch) -> tuple[float, float]:
-    far = 1e6 * (1.0 + max(abs(value) for value in branch.past))
-    return branch.way * far, branch.start
+    return branch.way * apart(branch), branch.start

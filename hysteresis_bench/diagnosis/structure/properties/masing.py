@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, evenly, places, read, unlike
+from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
 
@@ -37,17 +37,22 @@ def from_reversals(course: Course) -> Unlike | None:
     for way in (1, -1):
         own = [branch for branch in course.branches if branch.way == way and branch.order]
         if own and np.ptp([branch.start for branch in own]) > APART * course.span_u:
-            cells += since_reversal(course, evenly(own, 2), (way,))
+            cells += since_reversal(course, evenly(own, 2), way)
     return unlike(course, cells)
 
 
-def since_reversal(course: Course, branches: Sequence[Branch], label: tuple[int, ...]) -> list[Cell]:
+def since_reversal(course: Course, branches: Sequence[Branch], group: int) -> list[Cell]:
     """Cells on the way since the reversal, within the depth of the memory; the first field holds the reversal."""
-    cells = []
-    for branch in branches:
-        way = branch.way_back
-        for at in places(0.0, min(branch.depth, float(way.max())), course.field).tolist():
-            weights = read(branch, way, at, course.field)
-            if weights is not None:
-                cells.append(Cell(branch, weights, (*label, round(at / course.field, 3)), id(branch), at, branch.way))
-    return cells
+    return [
+        cell
+        for branch in branches
+        for cell in along(
+            course,
+            branch,
+            branch.way_back,
+            (0.0, min(branch.depth, float(branch.way_back.max()))),
+            group=group,
+            constant=id(branch),
+            sign=branch.way,
+        )
+    ]

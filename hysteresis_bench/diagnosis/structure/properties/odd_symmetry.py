@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import numpy as np
-
-from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
-from hysteresis_bench.diagnosis.structure.cells import Cell, evenly, places, read, unlike
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch, remembered
+from hysteresis_bench.diagnosis.structure.cells import Cell, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
 
 
 def odd_symmetry(course: Course) -> Finding:
-    """Rising branches against falling ones whose last two reversals are mirrored at the input 0; the output's centre
+    """Rising branches against falling ones whose last reversals are mirrored at the input 0; the output's centre
     is free."""
     groups = [
         group
@@ -23,11 +21,8 @@ def odd_symmetry(course: Course) -> Finding:
         for branch in evenly(group, len(groups)):
             u = branch.way * branch.u
             constant = (branch.record, branch.way)
-            for at in places(float(u.min()), float(u.max()), course.field).tolist():
-                weights = read(branch, u, at, course.field)
-                if weights is not None:
-                    place = (number, round(at / course.field, 3))
-                    cells.append(Cell(branch, weights, place, constant, at, branch.way))
+            ends = (float(u.min()), float(u.max()))
+            cells += along(course, branch, u, ends, group=number, constant=constant, sign=branch.way)
     return told(
         "odd symmetry",
         course,
@@ -40,6 +35,6 @@ def odd_symmetry(course: Course) -> Finding:
     )
 
 
-def _mirrored(branch: Branch) -> tuple[float, float]:
-    first, second = branch.way * np.array(branch.past[:2])
-    return float(first), float(second)
+def _mirrored(branch: Branch) -> tuple[float, ...]:
+    *past, count = remembered(branch)
+    return (*(branch.way * value for value in past), count)

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
-from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, evenly, places, read, unlike
-from hysteresis_bench.diagnosis.structure.course import DEPTH, Branch, Course
+from hysteresis_bench.diagnosis.structure.alike import alike, apart, mismatch, remembered
+from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
+from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
 
 FASTER = 1.2
@@ -32,11 +32,8 @@ def _found(course: Course) -> Unlike | None:
     cells: list[Cell] = []
     for number, group in enumerate(groups):
         for branch in evenly(group, len(groups)):
-            for at in places(float(branch.u.min()), float(branch.u.max()), course.field).tolist():
-                weights = read(branch, branch.u, at, course.field)
-                if weights is not None:
-                    place = (number, round(at / course.field, 3))
-                    cells.append(Cell(branch, weights, place, branch.record, at))
+            ends = (float(branch.u.min()), float(branch.u.max()))
+            cells += along(course, branch, branch.u, ends, group=number, constant=branch.record)
     return unlike(course, cells, mismatch(course, groups, _memory))
 
 
@@ -46,7 +43,4 @@ def _speeds(group: list[Branch]) -> bool:
 
 
 def _memory(branch: Branch) -> tuple[float, ...]:
-    """The reversals before, at most DEPTH of them; how many there are; the direction."""
-    far = 1e6 * (1.0 + max(abs(value) for value in branch.past))
-    known = branch.past[:DEPTH]
-    return (*known, *(0.0,) * (DEPTH - len(known)), len(known) * far, branch.way * far)
+    return (*remembered(branch), branch.way * apart(branch))

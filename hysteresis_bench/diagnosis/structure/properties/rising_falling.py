@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
+from itertools import pairwise
+
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch, remembered
 from hysteresis_bench.diagnosis.structure.cells import Cell, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
@@ -14,7 +16,7 @@ def rising_falling(course: Course) -> Finding:
     groups = [group for group in alike(course, course.branches[1:], _ends) if {b.way for b in group} == {1, -1}]
     cells: list[Cell] = []
     for number, group in enumerate(groups):
-        cells += since_reversal(course, evenly([branch for branch in group if branch.order], len(groups)), (number,))
+        cells += since_reversal(course, evenly([branch for branch in group if branch.order], len(groups)), number)
     return told(
         "rising and falling branches",
         course,
@@ -28,7 +30,8 @@ def rising_falling(course: Course) -> Finding:
     )
 
 
-def _ends(branch: Branch) -> tuple[float, float]:
-    """Lower and upper reversal between which it runs, by the two before it."""
-    low, high = sorted(branch.past[:2] if branch.order else (branch.start, branch.start))
-    return low, high
+def _ends(branch: Branch) -> tuple[float, ...]:
+    """Lower and upper reversal between which it runs, and how far the input went between those before."""
+    *past, count = remembered(branch)
+    steps = [branch.way * (one - other) for one, other in pairwise(past)]
+    return (min(past[:2]), max(past[:2]), *steps, count)

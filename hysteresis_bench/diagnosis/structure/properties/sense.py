@@ -20,7 +20,7 @@ def sense(course: Course) -> Finding:
 
     areas, errors, records = [], [], []
     for number in range(len(course.views)):
-        rows = [row for _, row in loops(course, number)]
+        rows = [row for _, _, row in loops(course, number)]
         if rows:
             whole = np.sum(rows, axis=0)
             areas.append(float(whole @ course.y) / len(rows))
@@ -62,8 +62,8 @@ def _some(names: list[str]) -> str:
     return ", ".join(names[:3]) + (f" and {len(names) - 3} more" if len(names) > 3 else "")
 
 
-def loops(course: Course, number: int) -> list[tuple[float, Array]]:
-    """Half the range, and the samples' weights that give the enclosed area, of every loop that the input closes.
+def loops(course: Course, number: int) -> list[tuple[float, float, Array]]:
+    """Half the range, the duration, and the samples' weights that give the enclosed area, of every closed loop.
 
     A loop goes from the input's middle, rising, to the next time that it rises through the same value. Anticlockwise
     loops have positive areas; weights : (samples of all records,)
@@ -75,7 +75,8 @@ def loops(course: Course, number: int) -> list[tuple[float, Array]]:
             continue
         row = _area(course, up, down, next_up)
         if row is not None:
-            found.append((0.5 * abs(down.start - next_up.start), row))
+            duration = float(down.time[-1] - up.time[0])
+            found.append((0.5 * abs(down.start - next_up.start), duration, row))
     return found
 
 
