@@ -144,6 +144,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
                             worst[name][f"{law}, {drive}, {samples}, {decay:g}"].append(one.p < ALARM)
                         elif truth.of(name).statistic > MISSED:
                             power[law, name, level].append(one.p < LEVEL)
+        print(f"{law}: done", flush=True)
     tell(alarms, worst, power)
 
 

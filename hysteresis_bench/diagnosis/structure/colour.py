@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -55,11 +56,16 @@ class Colour:
         from scipy.signal import lfilter
 
         found = np.zeros((rows.shape[0], rows.shape[0]))
+        used = np.flatnonzero(rows.any(axis=0))
+        if not used.size:
+            return found
+        low, high = int(used[0]), int(used[-1]) + 1
+        borders = [low, *(border for border in self.borders if low < border < high), high]
         for decay, variance in zip(self.decays, self.variances, strict=True):
             if variance <= 0.0:
                 continue
             parts = []
-            for begin, end in zip(self.borders[:-1], self.borders[1:], strict=True):
+            for begin, end in pairwise(borders):
                 part = lfilter([1.0], [1.0, -decay], rows[:, end - 1 : begin - 1 if begin else None : -1], axis=1)
                 part[:, :-1] *= np.sqrt(1.0 - decay**2)
                 parts.append(part)
@@ -68,8 +74,8 @@ class Colour:
         return found
 
 
-def colour(stretches: Sequence[Array], borders: Sequence[int], least: float) -> Colour:
-    """From the outputs along branches, (samples,) each; least : RMS of white noise that is surely there."""
+def colour(stretches: Sequence[Array], borders: Sequence[int], least: float, most: float = np.inf) -> Colour:
+    """From the outputs along branches, (samples,) each; least, most : RMS that it has at least, at most."""
     typical = float(np.median([part.size for part in stretches])) if stretches else 0.0
     size = int(np.clip(typical // 2, SHORTEST, LONGEST))
     cut = [part[k : k + size] for part in stretches for k in range(0, part.size - size + 1, size)]
@@ -84,6 +90,7 @@ def colour(stretches: Sequence[Array], borders: Sequence[int], least: float) -> 
     decays, variances = _averaged(quiet.T @ quiet / len(quiet), contrasts, len(quiet))
     for index in np.flatnonzero(variances[:-1] < SMALL * variances.sum()):  # slower, and cheaper
         variances[index + 1], variances[index] = variances[index + 1] + variances[index], 0.0
+    variances *= min(1.0, most**2 / max(variances.sum(), 1e-300))
     variances[0] += max(least**2 - variances.sum(), 0.0)
     freedom = len(quiet) * contrasts.shape[1] * (1.0 - float(np.sum(variances * decays) / max(variances.sum(), 1e-300)))
     return Colour(tuple(decays.tolist()), tuple(variances.tolist()), max(freedom, 4.0), tuple(borders))

@@ -13,6 +13,7 @@ from hysteresis_bench.diagnosis.structure.colour import colour
 from hysteresis_bench.diagnosis.structure.structure import TESTS, structure
 from hysteresis_bench.signals import INDEX, Record
 from tests.diagnosis.structure.made import (
+    CYCLES,
     coleman_hodgdon,
     late,
     minor_loops,
@@ -81,9 +82,9 @@ def test_a_lag_depends_on_the_rate_and_is_told():
 def test_a_delay_of_a_hysteretic_output_is_a_reversal_lag():
     def delayed(time, u):
         whole = plays()(time, u)
-        return np.interp(time - 0.03 * (time[-1] - time[0]) / 4.0, time, whole)
+        return np.interp(time - 0.06 * (time[-1] - time[0]) / CYCLES, time, whole)
 
-    found = structure(seen(delayed, triangle)).of("reversal lag")
+    found = structure(seen(delayed, triangle, level=0.001)).of("reversal lag")
     assert found.refutes
     assert not structure(seen(plays(), triangle)).of("reversal lag").refutes
 

@@ -18,10 +18,13 @@ FEWEST, WIDEST = 8, 60
 LATEST = 0.6
 """Longest lag, in samples on either side."""
 STEPS = 25
+BENDS = (0.02, 0.05, 0.1, 0.2, 0.4)
+"""Ways along which a force turns over, as shares of the way that is looked at."""
 
 
 def reversal_lag(course: Course) -> Finding:
-    """One delay for all reversals against none, and against a clearance: a path that is gone without an answer."""
+    """One delay for all reversals against none, and against what needs no time: a clearance, a path that is gone
+    without an answer, or a force that turns over along a short way."""
     from scipy.stats import f
 
     if not all(view.record.timed for view in course.views):
@@ -31,15 +34,16 @@ def reversal_lag(course: Course) -> Finding:
         return Finding("reversal lag", "No reversal has enough samples on either side: a lag cannot be told.")
     half = (windows[0].stop - windows[0].start) // 2
     step = float(np.median([view.step for view in course.views]))
-    none, degrees = _left(course, windows, lambda u, way: (u, way))
+    none, degrees = _left(course, windows, _as_it_is)
     lags = np.linspace(0.0, LATEST * half, STEPS)[1:]
     late = np.array([_left(course, windows, _delayed(lag))[0] for lag in lags])
     reach = max(float(np.ptp(course_u(course)[window])) for window in windows)
     gaps = np.linspace(0.0, reach, STEPS)[1:]
     loose = min(_left(course, windows, _cleared(gap))[0] for gap in gaps)
+    bends = min(_left(course, windows, _as_it_is, bend)[0] for bend in BENDS)
     best = int(np.argmin(late))
     floor = degrees * ((course.span_y * 5e-4) ** 2 + sum(course.noise.variances))
-    gain = min(none, loose) - late[best]
+    gain = min(none, loose, bends) - late[best]
     slow = sum(v * (1.0 + d) / (1.0 - d) for d, v in zip(course.noise.decays, course.noise.variances, strict=True))
     unit = max(late[best], floor) / degrees * max(slow / max(sum(course.noise.variances), 1e-300), 1.0)
     p = float(f.sf(max(gain, 0.0) / unit, 1.0, max(degrees, 4)))
@@ -82,6 +86,10 @@ Change = Callable[[Array, int], tuple[Array, int]]
 """The input about a reversal, (samples,), and the sample of the reversal -> as the law sees them."""
 
 
+def _as_it_is(u: Array, turn: int) -> tuple[Array, int]:
+    return u, turn
+
+
 def _delayed(lag: float) -> Change:
     def change(u: Array, turn: int) -> tuple[Array, int]:
         samples = np.arange(u.size)
@@ -100,8 +108,11 @@ def _cleared(gap: float) -> Change:
     return change
 
 
-def _left(course: Course, windows: list[slice], change: Change) -> tuple[float, int]:
-    """Sum of squares that a curve of the input before and one after the turn leave, and its degrees of freedom."""
+def _left(course: Course, windows: list[slice], change: Change, bend: float | None = None) -> tuple[float, int]:
+    """Sum of squares that a curve of the input before and one after the turn leave, and its degrees of freedom.
+
+    bend : way along which the output turns over after it, as a share of the window's
+    """
     u, y = course_u(course), course.y
     total, degrees = 0.0, 0
     for window in windows:
@@ -111,6 +122,8 @@ def _left(course: Course, windows: list[slice], change: Change) -> tuple[float, 
         x = (seen - seen[turn]) / (np.ptp(seen) or 1.0)
         before = (np.arange(x.size) <= turn).astype(float)
         columns = np.column_stack([np.ones_like(x), *(part * x**k for part in (before, 1.0 - before) for k in (1, 2))])
+        if bend is not None:
+            columns = np.column_stack([columns, (1.0 - before) * np.expm1(-np.abs(x) / bend)])
         start = half // 2  # a delayed input is not known at the window's beginning
         kept, target = columns[start:], y[window][start:]
         solution, _, rank, _ = np.linalg.lstsq(kept, target, rcond=1e-9)
