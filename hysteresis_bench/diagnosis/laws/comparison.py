@@ -17,7 +17,7 @@ from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.choice import choose
+from hysteresis_bench.diagnosis.laws.choice import ALONE, choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
 from hysteresis_bench.diagnosis.preparation import thinned
@@ -75,7 +75,8 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     names, reasons = tuple(options.laws), dict[str, str]()
     if not names:
         names = registry.names("models")
-        reachable = max(floor, memory(asked).branch_rmse)
+        # branches of the data's own, judged on what they were not fitted to, do about as well as the best law
+        reachable = max(floor, memory(asked).branch_rmse) * (ALONE if len(asked) == 1 else 1.0)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](thin, jobs, options.on_step) as workers:

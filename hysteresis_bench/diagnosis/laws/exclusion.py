@@ -2,8 +2,8 @@
 
 A law that runs one way only is excluded by loops that run the other way: no effect around it turns a loop. A law whose
 branches must be alike where the data's are not leaves at least half of what they differ by, whatever its parameters.
-Where that alone is more than MARGIN times what branches of the data's own reach, and nothing in time blurs them (a lag,
-speeds, drift), it is excluded as it stands. An effect around it, such as a curve of the output, may bring the same
+Where that alone is more than a law may leave to be chosen, and nothing in time blurs the branches (a lag, speeds,
+drift), it is excluded as it stands. An effect around it, such as a curve of the output, may bring the same
 about: where effects are named, or sought later, or where the law is asked for by its name, it is fitted all the same.
 Return-point memory and rate independence exclude nothing, since a lag breaks both, nor does odd symmetry: the centre of
 the input and the curve of the output are beside the law. They are told.
@@ -17,10 +17,6 @@ from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model, Property
 from hysteresis_bench.diagnosis.structure.finding import Finding, Name
 from hysteresis_bench.diagnosis.structure.structure import Structure
-
-MARGIN = 2.0
-"""Times the error that branches of the data's own reach: so far from the best a law is not chosen of a lone record
-either."""
 
 ASKS: Mapping[Name, Property] = {
     "odd symmetry": "odd",
@@ -39,8 +35,8 @@ BLURS: tuple[Name, ...] = ("reversal lag", "closure", "rate independence")
 def excluded(names: Sequence[str], structure: Structure, reachable: float, *, alone: bool) -> dict[str, str]:
     """Why laws are not fitted, by name.
 
-    reachable : RMSE that branches of the data's own reach on what they were not fitted to, or the floor, unit of the
-    output;  alone : no effect stands around the laws, nor will
+    reachable : RMSE above which no law is chosen, unit of the output
+    alone : no effect stands around the laws, nor will
     """
     clear = alone and not any(structure.of(name).refutes for name in BLURS)
     found = {}
@@ -69,9 +65,9 @@ def _wrong_way(model: Model, structure: Structure) -> str:
 
 
 def _unlike(finding: Finding, reachable: float) -> str:
-    if not finding.refutes or finding.least <= MARGIN * reachable:
+    if not finding.refutes or finding.least <= reachable:
         return ""
     return (
-        f"{finding.words.removesuffix('.')}. As it stands it would leave {finding.least:.3g} at least, branches of the "
-        f"data's own leave {reachable:.3g}. An effect around it may change that: name it, or the law."
+        f"{finding.words.removesuffix('.')}. As it stands it would leave {finding.least:.3g} at least, and no law is "
+        f"chosen above {reachable:.3g}. An effect around it may change that: name it, or the law."
     )

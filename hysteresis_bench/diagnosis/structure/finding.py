@@ -79,7 +79,7 @@ def told(
 
 
 def pictured(course: Course, found: Unlike, most: int = 12) -> tuple[tuple[Array, Array], ...]:
-    """The curves that were compared, their constants taken off."""
+    """The longest of the curves that were compared, their constants taken off."""
     common: dict[Any, list[float]] = {}
     values = [cell.sign * float(cell.weights @ cell.branch.y) for cell in found.cells]
     for cell, value, left in zip(found.cells, values, found.left, strict=True):
@@ -88,7 +88,8 @@ def pictured(course: Course, found: Unlike, most: int = 12) -> tuple[tuple[Array
     curves: dict[int, list[tuple[float, float]]] = {}
     for cell, left in zip(found.cells, found.left, strict=True):
         curves.setdefault(id(cell.branch), []).append((cell.at, middle[cell.place] + left))
-    return tuple(_sorted(points) for points in list(curves.values())[:most] if len(points) > 1)
+    longest = sorted(curves.values(), key=len, reverse=True)[:most]
+    return tuple(_sorted(points) for points in longest if len(points) > 1)
 
 
 def _sorted(points: Sequence[tuple[float, float]]) -> tuple[Array, Array]:

@@ -46,7 +46,7 @@ def _small(folder: Path, finding: Finding, units: Units) -> Picture:
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         for number_, (x, y) in enumerate(finding.curves):
-            axes.plot(x, y, "o-" if grows else "-", color=SERIES[number_ % len(SERIES)], linewidth=1.0, markersize=3)
+            axes.plot(x, y, "o" if grows else "-", color=SERIES[number_ % len(SERIES)], linewidth=1.0, markersize=3)
         if grows:
             axes.set_xscale("log")
             axes.set_yscale("log")

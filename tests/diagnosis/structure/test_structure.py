@@ -84,7 +84,7 @@ def test_a_delay_of_a_hysteretic_output_is_a_reversal_lag():
         whole = plays()(time, u)
         return np.interp(time - 0.06 * (time[-1] - time[0]) / CYCLES, time, whole)
 
-    found = structure(seen(delayed, triangle, level=0.001)).of("reversal lag")
+    found = structure(seen(delayed, triangle)).of("reversal lag")
     assert found.refutes
     assert not structure(seen(plays(), triangle)).of("reversal lag").refutes
 
