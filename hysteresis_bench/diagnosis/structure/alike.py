@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
+from typing import TypeAlias
 
 import numpy as np
 
@@ -12,35 +13,33 @@ from hysteresis_bench.diagnosis.structure.course import DEPTH, Branch, Course
 MATCH = 0.005
 """Share of the input's range within which two reversals count as the same."""
 
+Key: TypeAlias = Callable[[Branch], tuple[Hashable, Sequence[float]]]
+"""A label, which must be the same, and inputs, which must nearly be; as many for every branch of a label."""
 
-def alike(course: Course, branches: Sequence[Branch], key: Callable[[Branch], Sequence[float]]) -> list[list[Branch]]:
-    """Groups of branches whose keys (inputs) are the same; key : as many numbers for every branch"""
+
+def alike(course: Course, branches: Sequence[Branch], key: Key) -> list[list[Branch]]:
+    """Groups of branches whose keys are the same."""
     groups: list[list[Branch]] = []
-    keys: list[Array] = []
+    keys: list[tuple[Hashable, Array]] = []
     for branch in branches:
-        own = np.array(key(branch))
-        for group, other in zip(groups, keys, strict=True):
-            if np.all(np.abs(own - other) <= MATCH * course.span_u):
+        label, inputs = key(branch)
+        own = np.array(inputs)
+        for group, (other, others) in zip(groups, keys, strict=True):
+            if label == other and np.all(np.abs(own - others) <= MATCH * course.span_u):
                 group.append(branch)
                 break
         else:
             groups.append([branch])
-            keys.append(own)
+            keys.append((label, own))
     return groups
 
 
-def mismatch(course: Course, groups: Sequence[Sequence[Branch]], key: Callable[[Branch], Sequence[float]]) -> float:
+def mismatch(course: Course, groups: Sequence[Sequence[Branch]], key: Key) -> float:
     """What unequal reversals make of the output: their RMS by the ratio of the ranges, unit of the output."""
-    spread = [np.std([key(branch) for branch in group], axis=0) for group in groups if len(group) > 1]
-    return float(np.sqrt(np.mean(np.square(spread)))) * course.span_y / course.span_u if spread else 0.0
+    spread = [np.mean(np.var([key(branch)[1] for branch in group], axis=0)) for group in groups if len(group) > 1]
+    return float(np.sqrt(np.mean(spread))) * course.span_y / course.span_u if spread else 0.0
 
 
 def remembered(branch: Branch) -> tuple[float, ...]:
-    """The reversals before it, at most DEPTH, nulls where there are fewer; and how many, of the size of an input."""
-    known = branch.past[:DEPTH]
-    return (*known, *(0.0,) * (DEPTH - len(known)), len(known) * apart(branch))
-
-
-def apart(branch: Branch) -> float:
-    """What keeps keys from being the same, where it is added to an input."""
-    return 1e6 * (1.0 + max(abs(value) for value in branch.past))
+    """The reversals before it, the last first, at most DEPTH."""
+    return branch.past[:DEPTH]

@@ -135,6 +135,17 @@ def test_what_cannot_be_asked_is_answered_with_the_reason():
     assert len(TESTS) == len(once.findings)
 
 
+def test_a_noisy_input_still_has_branches_that_are_alike():
+    rng, noisy = np.random.default_rng(2), []
+    for view in seen(plays(), sine):
+        jitter = 1e-4 * rng.standard_normal(view.u.size)
+        noisy.append(replace(view.record, input=view.u + jitter))
+    found = structure(views_of(noisy))
+    for name in ("closure", "odd symmetry", "rising and falling branches", "rate independence"):
+        assert found.of(name).applies
+        assert found.of(name).p > 0.01
+
+
 def test_slow_noise_is_not_taken_for_fast_noise():
     """The variance of a mean over eight samples, of noise whose neighbours correlate by 0.9."""
     weights = np.zeros((1, 2000))

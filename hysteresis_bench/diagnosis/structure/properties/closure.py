@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.structure.alike import alike, apart, mismatch
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
 from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import LEVEL, Finding, told
@@ -37,9 +39,8 @@ def closure(course: Course) -> Finding:
     )
 
 
-def _cycle(branch: Branch) -> tuple[float, ...]:
-    """Record, direction and reversals, each of the size of an input."""
-    return (branch.record * apart(branch), branch.way * apart(branch), *branch.past[:2])
+def _cycle(branch: Branch) -> tuple[Hashable, tuple[float, ...]]:
+    return (branch.record, branch.way), branch.past[:2]
 
 
 def _manner(course: Course, found: Unlike) -> str:

@@ -5,9 +5,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 import numpy as np
 
-from hysteresis_bench.diagnosis.structure.alike import alike, apart, mismatch
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
 from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
@@ -46,5 +48,5 @@ def _shifted(course: Course, group: list[Branch]) -> bool:
     return len(group) > 1 and bool(np.ptp([branch.y[0] for branch in group]) > APART * course.span_y)
 
 
-def _start(branch: Branch) -> tuple[float, float]:
-    return branch.way * apart(branch), branch.start
+def _start(branch: Branch) -> tuple[Hashable, tuple[float, ...]]:
+    return branch.way, (branch.start,)

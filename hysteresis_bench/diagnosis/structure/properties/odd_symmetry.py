@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
+
 from hysteresis_bench.diagnosis.structure.alike import alike, mismatch, remembered
 from hysteresis_bench.diagnosis.structure.cells import Cell, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
@@ -10,7 +12,7 @@ from hysteresis_bench.diagnosis.structure.finding import Finding, told
 
 def odd_symmetry(course: Course) -> Finding:
     """Rising branches against falling ones whose last reversals are mirrored at the input 0; the output's centre
-    is free."""
+    is free. Within a record each: its speed is its own."""
     groups = [
         group
         for group in alike(course, [branch for branch in course.branches if branch.order], _mirrored)
@@ -35,6 +37,6 @@ def odd_symmetry(course: Course) -> Finding:
     )
 
 
-def _mirrored(branch: Branch) -> tuple[float, ...]:
-    *past, count = remembered(branch)
-    return (*(branch.way * value for value in past), count)
+def _mirrored(branch: Branch) -> tuple[Hashable, tuple[float, ...]]:
+    past = remembered(branch)
+    return (branch.record, len(past)), tuple(branch.way * value for value in past)

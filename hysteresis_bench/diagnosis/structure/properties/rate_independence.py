@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from hysteresis_bench.diagnosis.structure.alike import alike, apart, mismatch, remembered
+from collections.abc import Hashable
+
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch, remembered
 from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import Finding, told
@@ -42,5 +44,6 @@ def _speeds(group: list[Branch]) -> bool:
     return len(group) > 1 and max(speeds) > FASTER * min(speeds)
 
 
-def _memory(branch: Branch) -> tuple[float, ...]:
-    return (*remembered(branch), branch.way * apart(branch))
+def _memory(branch: Branch) -> tuple[Hashable, tuple[float, ...]]:
+    past = remembered(branch)
+    return (branch.way, len(past)), past

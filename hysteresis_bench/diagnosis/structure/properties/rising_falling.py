@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable
 from itertools import pairwise
 
 from hysteresis_bench.diagnosis.structure.alike import alike, mismatch, remembered
@@ -30,8 +31,8 @@ def rising_falling(course: Course) -> Finding:
     )
 
 
-def _ends(branch: Branch) -> tuple[float, ...]:
+def _ends(branch: Branch) -> tuple[Hashable, tuple[float, ...]]:
     """Lower and upper reversal between which it runs, and how far the input went between those before."""
-    *past, count = remembered(branch)
+    past = remembered(branch)
     steps = [branch.way * (one - other) for one, other in pairwise(past)]
-    return (min(past[:2]), max(past[:2]), *steps, count)
+    return (branch.record, len(past)), (min(past[:2]), max(past[:2]), *steps)
