@@ -89,6 +89,8 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     if left > WRONG:
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
         words += f" {why}" if (why := why_not(chosen, found)) else ""
+    if not chosen and found.of("sense").mixed:
+        words += f" Of these records {found.of('sense').words}"
     rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
     held_out = table.set_index("law")["held_out"]

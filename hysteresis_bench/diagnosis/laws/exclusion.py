@@ -53,7 +53,8 @@ def why_not(name: str, structure: Structure) -> str:
     """Sentences of what the data refute of a law's properties, "" where nothing."""
     model: Model = registry.build("models", name, {})
     asked = [structure.of(test) for test, one in ASKS.items() if one in model.properties]
-    told = [_wrong_way(model, structure), *(finding.words for finding in asked if finding.refutes)]
+    mixed = structure.of("sense").words if structure.of("sense").mixed else ""
+    told = [mixed, _wrong_way(model, structure), *(finding.words for finding in asked if finding.refutes)]
     return " ".join(sentence[0].upper() + sentence[1:] for sentence in told if sentence)
 
 

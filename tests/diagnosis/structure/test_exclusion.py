@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -78,6 +79,17 @@ def test_a_fit_far_above_the_noise_says_that_the_law_cannot_follow():
     assert "branches from different reversals differ" in told.lower()
     own = seen(plays(np.linspace(0.1, 0.8, 8), 0.3), modulated, level=0.01)
     assert "cannot follow" not in " ".join(fit(dataset(own), "prandtl-ishlinskii").warnings)
+
+
+def test_loops_of_both_senses_are_told():
+    one = seen(plays(), sine)[0].record
+    other = replace(seen(clockwise, sine)[0].record, name="other")
+    found = compare(Dataset((one, other)), ("dahl",), options=ONE)
+    assert found.chosen == ""
+    assert "loops run clockwise in other and anticlockwise in run 0" in found.words
+    told = " ".join(fit(Dataset((one, other)), "dahl").warnings)
+    assert "cannot follow these data" in told
+    assert "anticlockwise in run 0" in told
 
 
 def test_the_page_and_the_json_tell_the_structure(tmp_path):
