@@ -88,7 +88,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
-        words += f" {why}" if (why := why_not(chosen, found)) else ""
+        words += f" {why}" if (why := why_not(chosen, found, left * floor)) else ""
     if not chosen and found.of("sense").mixed:
         words += f" Of these records {found.of('sense').words}"
     rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]

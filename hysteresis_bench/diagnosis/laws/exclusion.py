@@ -28,6 +28,8 @@ ASKS: Mapping[Name, Property] = {
 }
 """Which property a test asks for."""
 EXCLUDES: tuple[Name, ...] = ("Masing's rule", "rising and falling branches", "congruency")
+TELLING = 0.2
+"""Share of a law's error from which what branches differ by is told as its reason."""
 BLURS: tuple[Name, ...] = ("reversal lag", "closure", "rate independence")
 """What, where refuted, may be why branches that are alike seem not to be."""
 
@@ -49,12 +51,21 @@ def excluded(names: Sequence[str], structure: Structure, reachable: float, *, al
     return found
 
 
-def why_not(name: str, structure: Structure) -> str:
-    """Sentences of what the data refute of a law's properties, "" where nothing."""
+def why_not(name: str, structure: Structure, rmse: float) -> str:
+    """Sentences of what the data refute of a law's properties, "" where nothing does that is worth a word beside the
+    error. rmse : of the law, unit of the output"""
     model: Model = registry.build("models", name, {})
     asked = [structure.of(test) for test, one in ASKS.items() if one in model.properties]
+
+    def telling(finding: Finding) -> bool:
+        return finding.refutes and 0.01 * finding.statistic * structure.span > TELLING * rmse
+
     mixed = structure.of("sense").words if structure.of("sense").mixed else ""
-    told = [mixed, _wrong_way(model, structure), *(finding.words for finding in asked if finding.refutes)]
+    told = [
+        mixed,
+        _wrong_way(model, structure),
+        *(finding.words for finding in asked if finding.refutes and telling(finding)),
+    ]
     return " ".join(sentence[0].upper() + sentence[1:] for sentence in told if sentence)
 
 

@@ -25,7 +25,7 @@ def cannot_follow(model: str, effects: Sequence[str], records: Sequence[Record],
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
     if rmse <= WRONG * floor:
         return ()
-    why = why_not(model, structure(views_of(thinned(views))))
+    why = why_not(model, structure(views_of(thinned(views))), rmse)
     around = f" with {', '.join(effects)}" if effects else ""
     told = f"This law cannot follow these data: {model}{around} leaves {rmse / floor:.2g} times the noise."
     return (f"{told} {why or 'No structure test says why; `diagnose` looks for an effect that is missing.'}",)

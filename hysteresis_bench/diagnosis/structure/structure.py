@@ -38,9 +38,10 @@ TESTS: tuple[Callable[[Course], Finding], ...] = (
 
 @dataclass(frozen=True, eq=False)
 class Structure:
-    """findings : one a test, in the order in which they are told"""
+    """findings : one a test, in the order in which they are told;  span : of the output, its unit"""
 
     findings: tuple[Finding, ...]
+    span: float = 0.0
 
     def of(self, name: Name) -> Finding:
         return next(finding for finding in self.findings if finding.name == name)
@@ -58,4 +59,4 @@ def structure(views: Sequence[View]) -> Structure:
         still = "The input or the output never moves: nothing can be asked."
         return Structure(tuple(Finding(name, still) for name in get_args(Name)))
     seen = course(views)
-    return Structure(tuple(test(seen) for test in TESTS))
+    return Structure(tuple(test(seen) for test in TESTS), seen.span_y)
