@@ -26,6 +26,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset
 
 NUMBERS = "laws.csv"
+SUMMARY = ROOT / "results" / "real-measurements" / "laws.csv"
 FEW = 40
 """Scored samples below which a run is left out, such as the first of reversal curves."""
 
@@ -156,6 +157,20 @@ def summary(rows: pd.DataFrame) -> str:
     return "\n".join(lines)
 
 
+def kept(rows: pd.DataFrame) -> pd.DataFrame:
+    """A row a device, also of those that were not run: the chosen law, what it and the polynomial leave, the floor."""
+    found = []
+    for device in DEVICES:
+        part = rows[rows["device"] == device.name].set_index("law") if len(rows) else rows
+        row = {"device": device.name, "unit": device.units[2], "run": "yes" if len(part) else "not run"}
+        if len(part):
+            law = part["chosen"].iloc[0] or BASELINE
+            errors = {"held_out": part.loc[law, "held_out"], "polynomial": part.loc[BASELINE, "held_out"]}
+            row |= {"law": law, **errors, "floor": part["floor"].iloc[0], "range": part["span"].iloc[0]}
+        found.append(row)
+    return pd.DataFrame(found)
+
+
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*")
@@ -179,6 +194,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         given.out.mkdir(parents=True, exist_ok=True)
         rows.to_csv(path, index=False, float_format="%.5g", lineterminator="\n")
     if len(rows):
+        kept(rows).to_csv(SUMMARY, index=False, float_format="%.5g", lineterminator="\n")
         print(summary(rows))
 
 

@@ -110,11 +110,20 @@ def fit(
     options : the search, its seed, and how the data are prepared, such as FitOptions(settle=True, seed=1)
     Raises UserError telling what is wrong with the names, the data, the box or the parameters.
     """
-    from hysteresis_bench.fit.fitting import DEFAULT, fit_records
+    from dataclasses import replace
 
-    return fit_records(
-        dataset, model, effects, settings=settings, bounds=bounds, fixed=fixed, options=options or DEFAULT
-    )
+    import numpy as np
+
+    from hysteresis_bench.diagnosis.laws.following import cannot_follow
+    from hysteresis_bench.fit.fitting import DEFAULT, fit_records
+    from hysteresis_bench.fit.preparation import Preparation
+
+    given = options or DEFAULT
+    found = fit_records(dataset, model, effects, settings=settings, bounds=bounds, fixed=fixed, options=given)
+    seen = dataset.map(Preparation(given.input_offset, given.flip, given.skip)).fitted
+    own = found.responses[found.responses["role"] == "fitted"]
+    rmse = float(np.sqrt(np.mean((own["simulated"] - own["output"]) ** 2)))
+    return replace(found, warnings=(*found.warnings, *cannot_follow(model, effects, seen, rmse)))
 
 
 def diagnose(

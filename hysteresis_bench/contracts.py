@@ -42,6 +42,16 @@ Family: TypeAlias = Literal[
 """Effects of one family do alike. Of those that act in one place, the earlier family stands further inside."""
 
 
+Property: TypeAlias = Literal["rate-independent", "odd", "masing", "return-point", "congruent"]
+"""What a law does at any value of its parameters, without effects inside or around it.
+
+rate-independent : the times of the samples do not matter;  odd : the input's mirror image gives the output's, from rest
+masing : every branch is one curve from its reversal on, as far as the memory of the reversal before reaches
+return-point : after an inner loop the output is what it was;  congruent : inner loops between the same two inputs are
+one curve, whatever came before
+"""
+
+
 @dataclass(frozen=True)
 class Example:
     """With what a model makes data of its own, when effects are hidden in them.
@@ -72,6 +82,10 @@ class Model(ABC):
     """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
     put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
     elsewhere p has no such field."""
+    properties: ClassVar[tuple[Property, ...]] = ()
+    """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
+    senses: ClassVar[tuple[int, ...]] = (-1, 1)
+    """Of its loops, output over input: 1 where they can run anticlockwise, -1 clockwise."""
     example: ClassVar[Example | None] = None
     """With what it makes data, where it may be asked to."""
 

@@ -7,12 +7,14 @@ import typing
 from collections.abc import Mapping
 from typing import Any
 
-from hysteresis_bench.contracts import Acts, Effect, Family, Model
+from hysteresis_bench.contracts import Acts, Effect, Family, Model, Property
 from hysteresis_bench.errors import nearest
 from hysteresis_bench.parameters import Parameter
 
 WORDS = {"acts": typing.get_args(Acts), "family": typing.get_args(Family)}
 """What an effect may say of itself."""
+PROPERTIES = typing.get_args(Property)
+"""What a model may say of itself."""
 
 
 def declaration_faults(plugin: Any, contract: type) -> list[str]:
@@ -31,6 +33,9 @@ def declaration_faults(plugin: Any, contract: type) -> list[str]:
     for attribute, known in WORDS.items() if contract is Effect else ():
         if (word := getattr(plugin, attribute)) not in known:
             found.append(f'{plugin.__name__}: no {attribute} "{word}". {nearest(str(word), known)}')
+    for word in getattr(plugin, "properties", ()) if contract is Model else ():
+        if word not in PROPERTIES:
+            found.append(f'{plugin.__name__}: no property "{word}". {nearest(str(word), PROPERTIES)}')
     return found
 
 

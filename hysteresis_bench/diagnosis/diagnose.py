@@ -36,7 +36,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
     fitted, _ = with_held_out(dataset.map(question.preparation.skipped))
-    laws = compare(fitted, replace(question, options=replace(question.options, skip=0.0)))
+    laws = compare(fitted, replace(question, options=replace(question.options, skip=0.0)), effects_follow=True)
     found = [_diagnosed(dataset, replace(question, model=law)) for law in _promising(laws, len(fitted.fitted) > 1)]
     best = min(found, key=lambda one: one.unseen)
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))

@@ -49,9 +49,11 @@ class Preparation:
         return (-seen if self.flip else seen) + self.input_offset
 
     def faults(self, records: Sequence[Record]) -> list[str]:
-        """A sentence on every record of which skipping leaves nothing to score."""
+        """A sentence on every record of one sample, or of which skipping leaves nothing to score."""
         return [
-            f"record {record.name}: skipping {self.skip:g} s leaves nothing of it: it lasts "
+            f"record {record.name}: one sample is no signal; leave the record out."
+            if record.time.size < 2
+            else f"record {record.name}: skipping {self.skip:g} s leaves nothing of it: it lasts "
             f"{float(np.ptp(record.time)):g} {record.units.get('time', 's')}."
             for record in records
             if self.skipped(record).history > record.time.size - 2

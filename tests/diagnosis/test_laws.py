@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from hysteresis_bench import compare, diagnose, registry
+from hysteresis_bench import compare, diagnose, fit, registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.compose import System
 from hysteresis_bench.data.data_files import write_csv
@@ -157,3 +157,12 @@ def test_an_effect_that_a_law_has_no_room_for_leaves_that_law_out():
     reasons = found.table.set_index("law")["reason"]
     assert reasons["bouc-wen"] == ""
     assert "no room for eddy-current" in reasons["dahl"]
+
+
+def test_a_record_of_one_sample_is_told_and_one_of_three_is_fitted():
+    whole = records(BOUC_WEN)[0]
+    for alone in (compare, fit):
+        with pytest.raises(UserError, match="one sample is no signal"):
+            alone(Dataset((whole, whole.take(slice(0, 1), "short"))), *(("bouc-wen",) if alone is fit else ()))
+    found = fit(Dataset((whole, whole.take(slice(0, 3), "short"))), "bouc-wen")
+    assert set(found.records["record"]) >= {"run 0", "short"}

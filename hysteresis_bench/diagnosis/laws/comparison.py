@@ -12,15 +12,18 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
+from hysteresis_bench.diagnosis.evidence.memory import memory
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.choice import choose
+from hysteresis_bench.diagnosis.laws.choice import ALONE, choose
+from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
+from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.settling import open_loops
@@ -38,7 +41,7 @@ class Comparison:
     seconds (CPU), reason (why there is no fit)
     chosen : the simplest law that predicts as well as the best, "" where none predicts better than the polynomial
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
-    notes : how it was made
+    notes : how it was made;  structure : what the data say before any fit
     """
 
     table: pd.DataFrame
@@ -47,38 +50,54 @@ class Comparison:
     floor: float
     units: dict[str, str]
     notes: tuple[str, ...] = ()
+    structure: Structure | None = None
 
     def as_dict(self) -> dict[str, Any]:
         """For a JSON file."""
         rows = self.table.astype(object).where(self.table.notna(), None).to_dict("records")
-        return {"chosen": self.chosen or None, "words": self.words, "floor": self.floor, "laws": rows}
+        findings = [finding.as_dict() for finding in self.structure.findings] if self.structure else []
+        told = {"chosen": self.chosen or None, "words": self.words, "floor": self.floor}
+        return {**told, "laws": rows, "structure": findings}
 
 
 @economical()
-def compare(dataset: Dataset, question: Question) -> Comparison:
+def compare(dataset: Dataset, question: Question, *, effects_follow: bool = False) -> Comparison:
     """Fit every law that the question's options name to the fitted records, and predict what it did not see.
 
-    Held-out records are predicted and never choose. Raises UserError telling every fault at once.
+    Where none is named, those are left out that the data exclude. Held-out records are predicted and never choose.
+    effects_follow : effects will be sought around the laws. Raises UserError telling every fault at once.
     """
     options, seen = question.options, _prepared(dataset, question)
-    names = tuple(options.laws) or registry.names("models")
     views = views_of(seen.fitted)
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
     thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
+    asked = views_of(thin.records)
+    found = structure(asked)
+    names, reasons = tuple(options.laws), dict[str, str]()
+    if not names:
+        names = registry.names("models")
+        # branches of the data's own, judged on what they were not fitted to, do about as well as the best law
+        reachable = max(floor, memory(asked).branch_rmse) * (ALONE if len(asked) == 1 else 1.0)
+        reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](thin, jobs, options.on_step) as workers:
-        laws = sorted(workers.map([("law", name) for name in names]), key=lambda law: law.rmse)
+        fitted = workers.map([("law", name) for name in names if name not in reasons])
+    struck = [Law(name, reason) for name, reason in reasons.items()]
+    laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     without = baseline_errors(thin.records)
     chosen, words = choose(laws, without, thin.records)
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
+        words += f" {why}" if (why := why_not(chosen, found, left * floor)) else ""
+    if not chosen and found.of("sense").mixed:
+        words += f" Of these records {found.of('sense').words}"
     rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
-    return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options))
+    return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options), found)
 
 
 def _prepared(dataset: Dataset, question: Question) -> Dataset:

@@ -227,7 +227,9 @@ def _autocovariance(residuals: list[Array], correlated: bool) -> Array:
     persistence = 4.0 * first**2 / (1.0 - min(first**2, 0.9999)) ** 2
     longest = max(part.size for part in residuals) // 4
     bandwidth = int(np.clip(np.ceil(1.1447 * (persistence * samples) ** (1 / 3)), 1, max(1, longest)))
-    lags = [sum(part[lag:] @ part[: part.size - lag] for part in residuals) / samples for lag in range(bandwidth)]
+    lags = [
+        sum(part[lag:] @ part[: max(part.size - lag, 0)] for part in residuals) / samples for lag in range(bandwidth)
+    ]
     return np.array(lags) * (1.0 - np.arange(bandwidth) / bandwidth)
 
 

@@ -12,6 +12,7 @@ from rich.table import Table as Printed
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison
+from hysteresis_bench.report.laws.structure import structure_figures, structure_table
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table, not_fitted
 from hysteresis_bench.report.shared.blocks import Bullets, Figures
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
@@ -38,6 +39,7 @@ def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> 
             ],
         ),
         *([Section("reasons", "Laws that were not fitted", [Bullets(reasons)])] if reasons else []),
+        *([_structure(folder, found)] if found.structure else []),
         Section(
             "notes",
             "How it was made",
@@ -49,6 +51,14 @@ def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> 
     ]
     page = Page(_title(found), f"Laws for {listed([file.stem for file in files], 6)}", sections, [found.words])
     return page.write(folder / FILE)
+
+
+def _structure(folder: Path, found: Comparison) -> Section:
+    assert found.structure is not None
+    findings = found.structure.findings
+    pictures = structure_figures(folder, findings, found.units)
+    table = structure_table(findings)
+    return Section("structure", "What the data say before any fit", [table, Figures(pictures, "small")])
 
 
 def _title(found: Comparison) -> str:
@@ -76,5 +86,5 @@ def print_comparison(found: Comparison, console: Console) -> None:
         table.add_row(row.law, str(row.parameters), *errors, f"{row.seconds:.1f}", style=style)
     console.print(table)
     for told in not_fitted(found.as_dict()["laws"]):
-        console.print(escape(told), highlight=False, style="dim")
+        console.print(escape(told), highlight=False, style="yellow" if "excluded: " in told else "dim")
     console.print(escape(found.words), highlight=False, style="bold" if found.chosen else "bold yellow")

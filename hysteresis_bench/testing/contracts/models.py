@@ -11,8 +11,9 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.signals import INDEX, Record
+from hysteresis_bench.signals import INDEX, Record, Signal
 from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contracts.properties import ALIKE, missed, turned
 from hysteresis_bench.testing.examples import locked, measured
 from hysteresis_bench.testing.parameters import expect_described, expect_sound
 from hysteresis_bench.testing.plugin import PluginContract
@@ -124,6 +125,21 @@ class ModelContract(PluginContract):
                 same = np.array_equal(around.simulate(record.signal, np.vstack([values, inner])), bare)
                 told = "nothing at the edge of its box" if on else "the output at its null"
                 expect(same != on, f"{name} changes {told}.")
+
+    def test_it_does_what_it_declares(self, plugin: str) -> None:
+        """It has the properties that it declares, and its loops run in the senses that it declares."""
+        built = self.build(plugin)
+        system, record = System(built), measured()
+        values = drawn(system.box([record]), 24)
+
+        def run(signal: Signal) -> Array:
+            return system.simulate(signal, values)
+
+        for name in built.properties:
+            most = float(np.max(missed(run, name)))
+            expect(most <= ALIKE, f"it declares {name}, and misses that by {most:.2g} of its output's range.")
+        other = {*turned(run)} - {0, *built.senses}
+        expect(not other, f"a loop runs {'anticlockwise' if 1 in other else 'clockwise'}, which it does not declare.")
 
     def test_it_advises_in_sentences(self, plugin: str) -> None:
         """What it says of records are sentences."""

@@ -45,6 +45,7 @@ class BoucWen(Model):
         Parameter("d", 0.0, 5.0, unit="{output}/{input}", meaning="linear response"),
     )
     linear = ("d",)
+    properties = ("rate-independent", "odd")
     offers = OFFERS
     example = Example(4.0, {"alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2}, stream=0)
 

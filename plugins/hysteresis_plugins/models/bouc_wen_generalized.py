@@ -55,6 +55,7 @@ class BoucWenGeneralized(Model):
         Parameter("F_y", 0.0, 5.0, "{output}", meaning="strength"),
     )
     linear = ("slope", "F_y")
+    properties = ("rate-independent",)
     example = Example(
         4.0,
         {

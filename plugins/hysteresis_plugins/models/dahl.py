@@ -41,6 +41,7 @@ class Dahl(Model):
         Parameter("F_C", 0.0, 5.0, "{output}", meaning="Coulomb friction"),
     )
     linear = ("slope", "F_C")
+    properties = ("rate-independent", "odd")
     example = Example(4.0, {"distance": 0.8, "i": 1.0, "gap": 0.0, "slope": 0.4, "F_C": 1.5}, stream=9)
 
     def simulate(self, signal: Signal, p: Any) -> Array:

@@ -53,6 +53,8 @@ class EnergyBased(Model):
         Parameter("M_s", 0.0, 5.0, "{output}", meaning="saturation"),
     )
     linear = ("slope", "M_s")
+    properties = ("rate-independent", "odd", "return-point")
+    senses = (1,)
     example = Example(
         4.0,
         {

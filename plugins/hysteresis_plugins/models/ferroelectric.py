@@ -58,6 +58,7 @@ class Ferroelectric(Model):
 
     parameters = _parameters(2)
     linear = ("permittivity", "P_1", "P_2")
+    properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
     example = Example(
         4.0,

@@ -58,6 +58,8 @@ class FreeEnergy(Model):
         Parameter("alpha", 0.01, 1000.0, "1/{input}^2", "log", meaning="scale of the densities"),
     )
     linear = ("M_R",)
+    properties = ("rate-independent", "odd", "return-point", "congruent")
+    senses = (1,)
     offers = OFFERS
     example = Example(4.0, {"M_R": 1.0, "eta": 4.0, "H_c": 1.1, "b": 1.0, "c": 0.35, "alpha": 0.6}, stream=1)
 

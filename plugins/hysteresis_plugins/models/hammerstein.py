@@ -41,6 +41,7 @@ class Hammerstein(Model):
     )
 
     linear = ("b",)
+    properties = ("odd",)
 
     n: float = 1.0
 

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Effect, Example, Model
+from hysteresis_bench.contracts import Effect, Example, Model, Property
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import falling
@@ -43,6 +43,7 @@ class JilesAtherton(Model):
         Parameter("c", 1e-2, 3.0, "1", meaning="reversibility of wall motion"),
     )
     offers: ClassVar[Mapping[str, Effect]] = OFFERS
+    properties: ClassVar[tuple[Property, ...]] = ("rate-independent", "odd")
     # with these values the law falls right after a reversal, where eddy currents have no solution
     example = Example(
         5000.0,

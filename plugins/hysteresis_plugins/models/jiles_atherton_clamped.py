@@ -19,4 +19,5 @@ class JilesAthertonClamped(JilesAtherton):
     """
 
     clamped: ClassVar[bool] = True
+    senses: ClassVar[tuple[int, ...]] = (1,)
     example = Example(5000.0, {"alpha": 3e-4, "a": 1100.0, "k": 900.0, "M_s": 1.3e6, "c": 0.2}, stream=3)

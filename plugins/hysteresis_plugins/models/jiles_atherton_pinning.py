@@ -31,6 +31,7 @@ class JilesAthertonPinning(JilesAtherton):
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
     example = Example(5000.0, {"alpha": 3e-4, "a": 1100.0, "k": 600.0, "M_s": 1.3e6, "c": 0.2, "kappa": 1.5}, stream=12)
     clamped: ClassVar[bool] = True
+    senses: ClassVar[tuple[int, ...]] = (1,)
 
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.jiles_atherton_pinning import jiles_atherton_pinning

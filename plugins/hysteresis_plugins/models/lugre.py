@@ -49,6 +49,7 @@ class Lugre(Model):
         Parameter("sigma_2", 0.0, 1.0, "{output} {time}/{input}", meaning="viscous friction"),
     )
     linear = ("slope", "F_C", "sigma_1", "sigma_2")
+    properties = ("odd",)
     example = Example(
         4.0,
         {"distance": 0.8, "stiction": 1.3, "v_s": 8.0, "slope": 0.4, "F_C": 1.5, "sigma_1": 0.003, "sigma_2": 0.004},

@@ -60,6 +60,7 @@ class MaxwellSlip(Model):
 
     parameters = _parameters(8)
     linear = tuple(parameter.name for parameter in parameters[2:])
+    properties = ("rate-independent", "odd", "return-point")
     offers = OFFERS
     example = Example(
         4.0,

@@ -51,6 +51,7 @@ class PrandtlIshlinskii(Model):
 
     parameters = _parameters(12)
     linear = tuple(parameter.name for parameter in parameters[1:])
+    properties = ("rate-independent", "odd", "masing", "return-point", "congruent")
     offers = OFFERS
     example = Example(
         4.0, {"radius": 4.0, "slope": 0.6, **{name: 0.3 / k for k, name in enumerate(named("w", 12), 1)}}, stream=5

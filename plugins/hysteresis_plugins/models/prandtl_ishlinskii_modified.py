@@ -61,6 +61,7 @@ class PrandtlIshlinskiiModified(Model):
 
     parameters = _parameters(8, 3)
     linear = tuple(parameter.name for parameter in parameters[11:])
+    properties = ("rate-independent", "return-point")
     offers = OFFERS
     example = Example(
         4.0,

@@ -66,6 +66,7 @@ class Preisach(Model):
 
     parameters = _parameters(5, 3)
     linear = tuple(parameter.name for parameter in parameters[1:])
+    properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
     example = Example(4.0, _example(5, 3), stream=7, without=("threshold-rate",))
 

@@ -65,6 +65,7 @@ class PreisachHats(Model):
 
     parameters = _parameters(8, 12)
     linear = tuple(parameter.name for parameter in parameters[3:])
+    properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
 
     plays: int = 8

@@ -1,0 +1,31 @@
+"""Does a fitted law follow its data? A sentence where it does not, with what the data say of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
+from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.laws.exclusion import why_not
+from hysteresis_bench.diagnosis.preparation import thinned
+from hysteresis_bench.diagnosis.question import record_faults
+from hysteresis_bench.diagnosis.structure.structure import structure
+from hysteresis_bench.signals import Record
+
+
+def cannot_follow(model: str, effects: Sequence[str], records: Sequence[Record], rmse: float) -> tuple[str, ...]:
+    """No sentence where the error is near the noise, or where the records tell too little of it.
+
+    model, effects : what was fitted;  records : to which, as the model sees them;  rmse : over all of them
+    """
+    if record_faults(records, "judge"):
+        return ()
+    views = views_of(records)
+    floor = floor_of(views, pooled_noise([view.noise for view in views]))
+    if rmse <= WRONG * floor:
+        return ()
+    why = why_not(model, structure(views_of(thinned(views))), rmse)
+    around = f" with {', '.join(effects)}" if effects else ""
+    told = f"This law cannot follow these data: {model}{around} leaves {rmse / floor:.2g} times the noise."
+    return (f"{told} {why or 'No structure test says why; `diagnose` looks for an effect that is missing.'}",)
