@@ -65,7 +65,7 @@ def compare(dataset: Dataset, question: Question) -> Comparison:
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
     thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
     jobs = options.jobs or min(4, os.cpu_count() or 1)
-    with Workers[Law](thin, jobs, options.on_step) as workers:
+    with Workers[Law](thin, jobs, options.on_step, options.kept) as workers:
         laws = sorted(workers.map([("law", name) for name in names]), key=lambda law: law.rmse)
     without = baseline_errors(thin.records)
     chosen, words = choose(laws, without, thin.records)
