@@ -8,8 +8,10 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.schemas.forms import NAMES, generated, schema
-from hysteresis_bench.study.study_file import read_study
+from hysteresis_bench.study.problems import dataset_of
+from hysteresis_bench.study.study_file import check_study, read_study
 
 ROWS = [(i / 50, 3 * np.sin(i / 9), 2 * np.sin(i / 9 - 0.2) + 0.01 * np.cos(1.7 * i)) for i in range(120)]
 
@@ -32,15 +34,47 @@ def told(*arguments, code=0):
     return done.stdout
 
 
-def test_a_new_study_is_read_and_plain_records_are_written(here):
+def test_a_new_study_reads_the_files_as_they_were_told(here):
     told("new-study", "slow.csv", "fast.csv", *ROLES, "--model", "bouc-wen", "--out", "mine.toml")
     study, text = read_study(here / "mine.toml")
+    (problem,) = study.problem
     assert text.startswith("#:schema ./study.schema.json")
-    assert study.problem[0].data == ["mine-records.csv"]
-    assert study.problem[0].held_out == ["mine-records:fast"]
+    assert 'layout   = { input = "drive", output = "way" }' in text
+    assert problem.held_out == ["fast"]
     assert len(study.optimizer) == 3
+    dataset = dataset_of(problem, 1, here)
+    assert dataset.units["output"] == "um"
+    np.testing.assert_allclose(dataset.records[0].output, [row[2] for row in ROWS], atol=1e-5)
     said = told("new-study", "slow.csv", *ROLES, "--model", "bouc-wenn", code=2)
     assert said == ""
+
+
+def test_a_problem_without_its_layout_says_where_it_goes(here):
+    told("new-study", "slow.csv", *ROLES, "--model", "bouc-wen", "--out", "mine.toml")
+    text = (here / "mine.toml").read_text(encoding="utf-8")
+    bare = check_study(tomllib.loads(text.replace('input = "drive", ', "")), "mine.toml")
+    with pytest.raises(UserError, match=r"stands in the problem: layout = \{ input"):
+        dataset_of(bare.problem[0], 1, here)
+    by_place = tomllib.loads(text.replace('"drive"', "2").replace('"way"', "3"))
+    assert dataset_of(check_study(by_place, "mine.toml").problem[0], 1, here).names == ("slow",)
+
+
+@pytest.mark.parametrize(
+    ("layout", "words"),
+    [
+        ({"delimiter": "x", "rate": -1.0}, 'delimiter "x" is none of comma.* rate -1 is no number'),
+        ({"columns": "a"}, 'no key "columns"'),
+        ({"rate": 10.0, "time": "t"}, "a rate or a column of time, not both"),
+    ],
+)
+def test_a_wrong_layout_is_told_with_the_studys_other_faults(here, layout, words):
+    told("new-study", "slow.csv", *ROLES, "--model", "bouc-wen", "--out", "mine.toml")
+    raw = tomllib.loads((here / "mine.toml").read_text(encoding="utf-8"))
+    raw["problem"][0]["layout"] = layout
+    raw["seeds"] = 3
+    with pytest.raises(UserError, match=words) as refused:
+        check_study(raw, "mine.toml")
+    assert any("seeds" in fault for fault in refused.value.faults)
 
 
 def test_schemas_are_what_the_forms_say(here):
