@@ -11,6 +11,7 @@ import click
 from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
 @preparation_options
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--seed", type=int, default=0, show_default=True)
+@json_option
 @open_option
 @force_option
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-laws.")
@@ -38,6 +40,7 @@ def compare(
     prepared: dict[str, Any],
     jobs: int | None,
     seed: int,
+    as_json: bool,
     open_page: bool,
     force: bool,
     out: Path | None,
@@ -51,13 +54,17 @@ def compare(
 
     folder = out or Path(f"{data[0].stem}-laws")
     check_folder(folder, FILES, FILE, data, force)
-    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
-    say_understood(console, dataset)
+    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console(aside=as_json)
+    if not as_json:
+        say_understood(console, dataset)
     say_notes(console, dataset.notes)
     kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
     with told_when_stopped("compare", lambda: kept, anew), steps_told("compare") as on_step:
         options = DiagnosisOptions(seed, jobs, **prepared, on_step=on_step)
         found = compare_laws(dataset, models, effects, options=options)
-    print_comparison(found, console)
     page = write_comparison(folder, found, data)
+    if as_json:
+        say_json({**found.as_dict(), "notes": found.notes, "page": page})
+    else:
+        print_comparison(found, console)
     say_page(console, page, open_page)

@@ -104,3 +104,18 @@ def test_json_of_lists():
     (one,) = json.loads(told("list", "creep", "--json"))
     assert [parameter["name"] for parameter in one["parameters"]] == ["share", "time_constant", "decades"]
     assert "arrives late" in one["says"]
+
+
+def test_json_of_compare_run_and_check_plugin(here):
+    compared = json.loads(told("compare", "slow.csv", *ROLES, "--models", "polynomial", "--jobs", "1", "--json"))
+    assert {row["law"] for row in compared["laws"]} >= {"polynomial", "cubic polynomial"}
+    told("new-study", "slow.csv", *ROLES, "--model", "polynomial", "--out", "mine.toml")
+    text = (here / "mine.toml").read_text(encoding="utf-8").replace("15050", "200")
+    (here / "mine.toml").write_text(text.replace("trials  = 3", "trials = 1"), encoding="utf-8")
+    ran = json.loads(told("run", "mine.toml", "--jobs", "1", "--json"))
+    assert {row["optimizer"] for row in ran["summary"]} == {"multistart-least-squares", "pso", "random-search"}
+    assert ran["failed"] == []
+    checked = json.loads(told("check-plugin", "bias", "--json"))
+    assert {one["status"] for one in checked} == {"kept"}
+    broken = json.loads(told("check-plugin", "faulty-missing", "--json", code=1))
+    assert any(one["status"] == "broken" and one["reason"] for one in broken)
