@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 existing_file = click.Path(path_type=Path)
 FEED_FORWARD, TRACKING, SWEEP = "feed-forward.csv", "tracking.svg", "sweep.csv"
 FILES = ("control.html", "control.csv", "responses.csv")
+AMPLITUDE_HELP = "Of the references; default: 2. Of a --sweep; default: four shares of the fitted range."
 SWEEP_HELP = "Expected error of a feed-forward along sines of these frequencies and several amplitudes, by the model."
 
 
@@ -35,11 +36,11 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 
 @click.command()
 @click.argument("model", type=existing_file)
-@click.option("--rig", help="Compare controllers on this virtual rig; see `list rigs`.")
+@click.option("--rig", metavar="NAME", help="Compare controllers on this virtual rig; see `list rigs`.")
 @click.option("--reference", type=existing_file, help="CSV with time and the wanted output: make the input for it.")
 @click.option("--sweep", callback=_frequencies, metavar="F,F,...", help=SWEEP_HELP)
 @click.option("--rate", type=click.FloatRange(min=0, min_open=True), help="Samples a second; default: 10000.")
-@click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help="Of the references; default: 2.")
+@click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
 @click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw what --reference makes.")
@@ -178,8 +179,9 @@ def _sweep(
     console.print(table)
     if found["beyond"].eq(True).any():
         console.print("Yellow, or `beyond` in the table: inputs that the fit has not seen.", highlight=False)
-    for row in found[found["left"].isna()].itertuples():
-        console.print(f"{row.amplitude:.3g} at {row.frequency:.3g}: {row.reason}", highlight=False, markup=False)
+    for reason, rows in found[found["left"].isna()].groupby("reason", sort=False):
+        places = ", ".join(f"{row.amplitude:.3g} at {row.frequency:.3g}" for row in rows.itertuples())
+        console.print(f"{places}: {reason}", highlight=False, markup=False)
     say_path(console, "table", folder / SWEEP)
 
 

@@ -126,8 +126,12 @@ def test_a_sweep_tells_what_to_expect():
     assert table.loc[table["amplitude"] == 40.0, "beyond"].all()
     with pytest.raises(ValueError, match="range of the fitted records"):
         sweep(replace(fitted("bouc-wen", BOUC_WEN), data={}), (1.0,))
-    out_of_reach = sweep(fitted("bouc-wen", BOUC_WEN, ("saturation",)), (1.0,), (50.0,))
-    assert "does not reach" in out_of_reach["reason"][0]
+    out_of_reach = sweep(fitted("bouc-wen", BOUC_WEN, ("saturation",)), (1.0,), (1.0, 50.0))
+    assert list(out_of_reach["left"].isna()) == [False, True]
+    assert "does not reach" in out_of_reach["reason"][1]
+    lugre = {"distance": 0.4, "stiction": 1.3, "v_s": 8.0, "slope": 0.4, "F_C": 1.5, "sigma_1": 0.1, "sigma_2": 0.1}
+    with pytest.raises(ValueError, match="depends on the rate"):
+        sweep(fitted("lugre", lugre), (1.0, 2.0))
 
 
 def test_the_command_sweeps(tmp_path, monkeypatch):

@@ -29,7 +29,7 @@ def sweep(
     left : RMS of the model's answer less the sine;  expected : of that and of the model's own error together
     beyond : the input leaves the fitted range
     reason : why no input was found, "" where one was
-    Raises ValueError where the model has no inverse, or keeps no range of its fitted records.
+    Raises ValueError where no input was found for any, or the model keeps no range of its fitted records.
     """
     forward, own = forward_of(fitted), _own_error(fitted)
     ranges = fitted.data.get("ranges") or {}
@@ -56,8 +56,15 @@ def sweep(
             "beyond": bool(np.min(driven.input) < least or np.max(driven.input) > most),
         }
         rows.append(row | found | {"reason": ""})
+    if reasons := _everywhere(rows):
+        raise ValueError(reasons)
     columns = ["amplitude", "frequency", "input", "left", "expected", "beyond", "reason"]
     return pd.DataFrame(rows).reindex(columns=columns)
+
+
+def _everywhere(rows: Sequence[dict[str, Any]]) -> str:
+    """Why no input was found, "" where one was."""
+    return "" if any(not row["reason"] for row in rows) else " ".join(dict.fromkeys(row["reason"] for row in rows))
 
 
 def _own_error(fitted: FittedModel) -> float:
