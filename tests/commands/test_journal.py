@@ -84,6 +84,19 @@ def test_killed_halfway_it_ends_in_the_same_file(here, monkeypatch, asked, after
     assert not (here / "killed" / FILE).exists()
 
 
+def test_stopped_by_ctrl_c_it_says_what_is_kept(here, monkeypatch):
+    def stopped(self, question, answer, known=Journal.__setitem__):
+        known(self, question, answer)
+        if len(self._answers) == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Journal, "__setitem__", stopped)
+    done = CliRunner().invoke(main, ["diagnose", "loop.csv", "--model", "polynomial", "--jobs", "1"])
+    assert done.exit_code == 130
+    told = " ".join(done.output.split())
+    assert f"3 finished fits are kept in loop-diagnosis/{FILE}. Run it again to continue." in told
+
+
 def test_answers_come_back_to_the_last_bit(tmp_path):
     known, law = hypothesis(), Law("dahl", "", 0.1 + 0.2, np.nan, np.arange(3.0) / 7.0, 5, 1.5)
     kept = Journal(tmp_path / FILE, "of")
