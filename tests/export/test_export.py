@@ -23,6 +23,7 @@ from hysteresis_bench.signals import Dataset, Record
 
 TIME = np.linspace(0.0, 2.0, 1500) + 0.0002 * np.sin(np.arange(1500))
 INPUT = 3.0 * np.sin(2 * np.pi * 1.5 * TIME) * (0.3 + TIME / 2.0) + 0.4 * np.sin(2 * np.pi * 11.0 * TIME)
+MASS = {"mass": 2e-4, "damping": 4e-3}
 LAWS = {
     "bouc-wen": {"alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},
     "hammerstein": {
@@ -45,6 +46,7 @@ LAWS = {
             "prandtl-ishlinskii-modified", "preisach",
         )
     },
+    "oscillator": {**MASS, "alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},
     "preisach-hats": {
         "radius": 2.0, "centre": 0.2, "reach": 2.0, "slope": 0.3,
         **{f"w{k}_{j}": 0.02 * (1 + (3 * k + 5 * j) % 7) for k in range(9) for j in range(1, 13)},
@@ -69,11 +71,15 @@ EFFECTS = {
     "transport-delay": {"delay": 0.0133},
 }
 SETTINGS = {"record-offset": {"default": 0.25}}
-OF_LAWS = {"bouc-wen": {"n": 1.0}, "free-energy-gma": {"bias_field": 1.5e4, "turns": 9e3}}
+OF_LAWS = {
+    "oscillator": {"substeps": 1},
+    "bouc-wen": {"n": 1.0},
+    "free-energy-gma": {"bias_field": 1.5e4, "turns": 9e3},
+}
 
 
-def fitted(law="bouc-wen", effects=(), preparation=None, settings=None, unit="s", **change):
-    values = {**LAWS[law], **change}
+def fitted(law="bouc-wen", effects=(), preparation=None, settings=None, unit="s", values=None, **change):
+    values = {**(values or LAWS[law]), **change}
     values |= {f"{name}.{key}": value for name in effects for key, value in EFFECTS[name].items()}
     units = {"time": unit, "input": "V", "output": "um"}
     settings = {**OF_LAWS.get(law, {}), **(settings or {})}
@@ -170,7 +176,6 @@ def test_c_and_python_say_what_predict_says(case, tmp_path, compiler):
 
 
 REFUSED = {
-    "oscillator": "a spline through the whole record",
     "temperature-sensitivity": "a step is given time and input alone",
 }
 
@@ -190,6 +195,7 @@ def test_what_depends_on_the_settings_or_the_values_is_refused_with_what_helps()
     term = {"kind": "power", "value": 2.0, "centre": 0.0, "resolution": 1.0, "coefficient": 0.1, "mean": 0.0}
     for model, why in (
         (fitted("lugre", sigma_2=0.004), "--fix sigma_2=0 it can be"),
+        (fitted("oscillator", settings={"substeps": 8}), "--set substeps=1 it can be"),
         (fitted("free-energy-gma", settings={"bias_field": None}), "fit with bias_field"),
         (
             replace(fitted(), effects=("description",), effect_settings={"description": {"terms": (term,)}}),
@@ -198,6 +204,12 @@ def test_what_depends_on_the_settings_or_the_values_is_refused_with_what_helps()
     ):
         with pytest.raises(UserError, match=why):
             exported(model, "python")
+
+
+@pytest.mark.parametrize("law", ["bouc-wen-generalized", "dahl", "maxwell-slip", "prandtl-ishlinskii", "preisach"])
+def test_an_oscillator_on_every_spring(law, tmp_path, compiler):
+    model = fitted("oscillator", settings={"law": law, "substeps": 1}, values={**MASS, **LAWS[law]})
+    close(called(compiled(model, tmp_path, compiler).all, TIME, INPUT), predicted(model), 1e-9)
 
 
 def test_smoother_loops_to_what_the_kernels_promise(tmp_path, compiler):

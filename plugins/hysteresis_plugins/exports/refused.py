@@ -6,10 +6,6 @@ from collections.abc import Mapping
 from typing import Any, NoReturn
 
 
-def oscillator(model: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
-    raise ValueError("its force between samples is a spline through the whole record, samples to come included")
-
-
 def temperature_sensitivity(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
     raise ValueError("it needs the temperature, and a step is given time and input alone")
 
