@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,12 +14,13 @@ from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
+    import pandas as pd
     from rich.console import Console
 
     from hysteresis_bench.fit.model_file import FittedModel
 
 existing_file = click.Path(path_type=Path)
-FEED_FORWARD, TRACKING, SWEEP = "feed-forward.csv", "tracking.svg", "sweep.csv"
+FEED_FORWARD, TRACKING, SWEEP, SWEPT = "feed-forward.csv", "tracking.svg", "sweep.csv", "sweep.svg"
 FILES = ("control.html", "control.csv", "responses.csv")
 AMPLITUDE_HELP = "Of the references; default: 2. Of a --sweep; default: four shares of the fitted range."
 SWEEP_HELP = "Expected error of a feed-forward along sines of these frequencies and several amplitudes, by the model."
@@ -43,7 +45,9 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
-@click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw what --reference makes.")
+@click.option(
+    "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw the --reference, or the --sweep, here."
+)
 @click.option("--seed", type=int, default=0, show_default=True)
 @json_option
 @open_option
@@ -75,9 +79,9 @@ def control(
     from hysteresis_bench.report.shared.papers import check_figure
 
     if plot is not None:
-        if reference is None:
-            raise UserError("control", "--plot draws what --reference makes; give it, too.")
-        check_file(plot, [model, reference], force)
+        if (reference is None) == (not sweep):
+            raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
+        check_file(plot, [model, *([reference] if reference else [])], force)
         check_figure(plot)
     if as_json and (bool(rig) == bool(sweep) or reference is not None):
         raise UserError("control", "--json tells the comparison on a --rig, or a --sweep, and one of them alone.")
@@ -99,7 +103,8 @@ def control(
             raise UserError(str(model), str(error)) from None
     if sweep:
         amplitudes = () if amplitude is None else (amplitude,)
-        _sweep(fitted, model, sweep, amplitudes, folder=folder, as_json=as_json)
+        drawn = folder / SWEPT if plot is None else plot
+        _sweep(fitted, model, sweep, amplitudes, folder=folder, drawn=drawn, as_json=as_json)
     if rig is not None:
         kept = f"no comparison was written to {folder}"
         with (
@@ -143,17 +148,21 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
 
 
 def _sweep(
-    fitted: FittedModel, model: Path, frequencies: tuple[float, ...], amplitudes: tuple[float, ...], *, folder: Path,
+    fitted: FittedModel,
+    model: Path,
+    frequencies: tuple[float, ...],
+    amplitudes: tuple[float, ...],
+    *,
+    folder: Path,
+    drawn: Path,
     as_json: bool,
-) -> None:  # fmt: skip
-    from rich.markup import escape
-    from rich.table import Table
-
+) -> None:
     from hysteresis_bench.commands.terminal.console import plain_console
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.control.trajectories.sweep import sweep
     from hysteresis_bench.data.csv_files import write_table
     from hysteresis_bench.errors import UserError
+    from hysteresis_bench.report.shared.papers import draw_sweep
 
     kept = f"nothing was written to {folder}"
     with told_when_stopped("control", lambda: kept, "Run it again to begin anew."), steps_told("control") as on_step:
@@ -163,13 +172,23 @@ def _sweep(
             raise UserError(str(model), str(error)) from None
     folder.mkdir(parents=True, exist_ok=True)
     write_table(folder / SWEEP, found)
+    draw_sweep(drawn, found, fitted.units)
     if as_json:
-        say_json({"sweep": found.to_dict("records"), "table": folder / SWEEP})
+        say_json({"sweep": found.to_dict("records"), "table": folder / SWEEP, "figure": drawn})
         return
     console = plain_console()
-    units = {name: "" if unit == "1" else f" [{unit}]" for name, unit in fitted.units.items()}
+    _print_sweep(found, fitted.units, console)
+    say_path(console, "table", folder / SWEEP)
+    say_path(console, "figure", drawn)
+
+
+def _print_sweep(found: pd.DataFrame, units: Mapping[str, str], console: Console) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    spelled = {name: "" if unit == "1" else f" [{unit}]" for name, unit in units.items()}
     table = Table(title="feed-forward along sines, by the model", title_justify="left", box=None, pad_edge=False)
-    headings = (f"amplitude{units['output']}", f"frequency [1/{fitted.units['time']}]", f"input{units['input']}")
+    headings = (f"amplitude{spelled['output']}", f"frequency [1/{units['time']}]", f"input{spelled['input']}")
     for heading in (*headings, "RMSE left", "RMSE expected", "share"):
         table.add_column(escape(heading), justify="right")
     for row in found.dropna(subset="left").itertuples():
@@ -182,7 +201,6 @@ def _sweep(
     for reason, rows in found[found["left"].isna()].groupby("reason", sort=False):
         places = ", ".join(f"{row.amplitude:.3g} at {row.frequency:.3g}" for row in rows.itertuples())
         console.print(f"{places}: {reason}", highlight=False, markup=False)
-    say_path(console, "table", folder / SWEEP)
 
 
 def _draw_tracking(fitted: FittedModel, folder: Path, path: Path) -> None:

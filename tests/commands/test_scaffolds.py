@@ -109,7 +109,8 @@ def test_json_of_lists():
 def test_json_of_compare_run_and_check_plugin(here):
     compared = json.loads(told("compare", "slow.csv", *ROLES, "--models", "polynomial", "--jobs", "1", "--json"))
     assert {row["law"] for row in compared["laws"]} >= {"polynomial", "cubic polynomial"}
-    told("new-study", "slow.csv", *ROLES, "--model", "polynomial", "--out", "mine.toml")
+    made = json.loads(told("new-study", "slow.csv", *ROLES, "--model", "polynomial", "--out", "mine.toml", "--json"))
+    assert (made["study"], made["records"][0]["input"]) == ("mine.toml", "drive (V)")
     text = (here / "mine.toml").read_text(encoding="utf-8").replace("15050", "200")
     (here / "mine.toml").write_text(text.replace("trials  = 3", "trials = 1"), encoding="utf-8")
     ran = json.loads(told("run", "mine.toml", "--jobs", "1", "--json"))

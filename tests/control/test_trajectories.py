@@ -143,6 +143,7 @@ def test_the_command_sweeps(tmp_path, monkeypatch):
     assert len(pd.read_csv(tmp_path / "model-control" / "sweep.csv")) == 8
     shown = CliRunner().invoke(main, ["control", "model.json", "--sweep", "1,10", "--amplitude", "1.9"])
     assert "RMSE expected" in shown.output
+    assert "Frequency (1/s)" in (tmp_path / "model-control" / "sweep.svg").read_text(encoding="utf-8")
     refused = CliRunner().invoke(main, ["control", "model.json", "--sweep", "1,x"])
     assert refused.exit_code == 2
     assert "should read F,F" in refused.output

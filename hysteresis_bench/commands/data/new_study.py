@@ -12,6 +12,7 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 from hysteresis_bench.errors import UserError
 
@@ -50,8 +51,9 @@ box      = "data"           # follows from the ranges of the records, as in `fit
 @data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="The study file; default: NAME.toml.")
+@json_option
 @force_option
-def new_study(data: Sequence[Path], layout: Layout, model: str, out: Path | None, force: bool) -> None:
+def new_study(data: Sequence[Path], layout: Layout, model: str, out: Path | None, as_json: bool, force: bool) -> None:
     """Write a commented study file on DATA ..., ready to `run`."""
     from hysteresis_bench import registry
     from hysteresis_bench.data.data_files import read_data
@@ -65,6 +67,9 @@ def new_study(data: Sequence[Path], layout: Layout, model: str, out: Path | None
     files = [_beside(file, path) for file in data]
     path.write_text(_text(dataset, layout, files=files, path=path, model=model), encoding="utf-8")
     path.with_name(SCHEMA).write_text(json.dumps(schema("study"), indent=1) + "\n", encoding="utf-8")
+    if as_json:
+        say_json({"records": [dict(row) for row in dataset.understood], "notes": dataset.notes, "study": path})
+        return
     say_understood(console, dataset)
     say_notes(console, dataset.notes)
     say_path(console, "study", path)

@@ -29,26 +29,27 @@ def sweep(
     left : RMS of the model's answer less the sine;  expected : of that and of the model's own error together
     beyond : the input leaves the fitted range
     reason : why no input was found, "" where one was
-    Raises ValueError where no input was found for any, or the model keeps no range of its fitted records.
+    Raises ValueError where no input was found for any, or no amplitude is told and the model keeps no range.
     """
     forward, own = forward_of(fitted), _own_error(fitted)
     ranges = fitted.data.get("ranges") or {}
-    if not ranges:
-        raise ValueError("the model file does not keep the range of the fitted records; fit the model again.")
-    low, high = ranges["output"]
-    wanted = tuple(amplitudes) or tuple(0.5 * (high - low) * share for share in SHARES)
+    if not ranges and not amplitudes:
+        raise ValueError("the model file does not keep the range of the fitted records; give an amplitude.")
+    low, high = ranges.get("output", (0.0, 0.0))
+    least, most = ranges.get("input", (-np.inf, np.inf))
+    middle, wanted = 0.5 * (low + high), tuple(amplitudes) or tuple(0.5 * (high - low) * share for share in SHARES)
     rows: list[dict[str, Any]] = []
     for amplitude, frequency in product(wanted, frequencies):
         on_step(Step("sines", len(rows), len(wanted) * len(frequencies)))
         row: dict[str, Any] = {"amplitude": amplitude, "frequency": frequency}
         time, sine = _sine(frequency, amplitude)
         try:
-            driven = drive(fitted, forward, time, 0.5 * (low + high) + sine)
+            driven = drive(fitted, forward, time, middle + sine)
         except ValueError as error:
             rows.append(row | {"reason": str(error)})
             continue
-        off = (driven.reached - 0.5 * (low + high) - sine)[-SCORED * SAMPLES :]
-        left, (least, most) = float(np.sqrt(np.mean(off**2))), ranges["input"]
+        off = (driven.reached - middle - sine)[-SCORED * SAMPLES :]
+        left = float(np.sqrt(np.mean(off**2)))
         found = {
             "input": float(np.max(np.abs(driven.input))),
             "left": left,
