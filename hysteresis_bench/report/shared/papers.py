@@ -97,7 +97,8 @@ def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
             label = f"amplitude {amplitude:.3g}{unit}"
             axes.plot(rows["frequency"], share * rows["expected"], color=colour, marker="o", markersize=3, label=label)
         axes.set_xscale("log")
-        axes.set_yscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.set_ylim(bottom=0.0)
         axes.set_xlabel(f"Frequency (1/{units['time']})")
         axes.set_ylabel("Expected RMS error (% of amplitude)")
         legend(axes)
