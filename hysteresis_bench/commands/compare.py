@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @preparation_options
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
 @force_option

@@ -48,7 +48,7 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option(
     "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw the --reference, or the --sweep, here."
 )
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
 @force_option

@@ -37,7 +37,7 @@ SHOWN = 8
 @click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
 @force_option
