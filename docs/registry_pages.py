@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import re
 import sys
 from collections.abc import Iterable, Sequence
 from typing import Any
@@ -129,7 +130,7 @@ def commands() -> str:
         context = click.Context(command, info_name=f"hysteresis-bench {name}")
         usage = command.get_usage(context).removeprefix("Usage: ")
         shown = [o for o in command.params if isinstance(o, click.Option) and not o.hidden]
-        rows = [(f"`{', '.join(o.opts)}{_value(o)}`", o.help or "") for o in shown]
+        rows = [(f"`{', '.join(o.opts)}{_value(o)}`", f"{o.help or ''}{_unsaid(o)}") for o in shown]
         parts += [f"## {name}", command.help or "", f"```text\n{' '.join(usage.split())}\n```"]
         parts += [table(["option", ""], rows)] if rows else []
     return "\n\n".join(parts) + "\n"
@@ -139,7 +140,16 @@ def _value(option: click.Option) -> str:
     return "" if option.is_flag else f" {option.make_metavar(click.Context(click.Command('')))}"
 
 
+def _unsaid(option: click.Option) -> str:
+    """The default, where the help does not say it itself."""
+    return f" Default: `{option.default}`." if option.show_default else ""
+
+
 def table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """A Markdown table; the cells' own bars are taken as they stand."""
+    """A Markdown table; the cells' own bars are taken as they stand, in code without a backslash before them."""
     lines = [header, ["---"] * len(header), *rows]
-    return "\n".join("| " + " | ".join(str(cell).replace("|", r"\|") for cell in line) + " |" for line in lines)
+    return "\n".join("| " + " | ".join(_barred(str(cell)) for cell in line) + " |" for line in lines)
+
+
+def _barred(cell: str) -> str:
+    return re.sub(r"(`[^`]*`)|\|", lambda found: found[1] or r"\|", cell)

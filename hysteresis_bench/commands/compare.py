@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is only predicted.")
 @preparation_options
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
 @force_option
@@ -54,10 +54,10 @@ def compare(
 
     folder = out or Path(f"{data[0].stem}-laws")
     check_folder(folder, FILES, FILE, data, force)
-    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
+    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console(aside=as_json)
     if not as_json:
         say_understood(console, dataset)
-        say_notes(console, dataset.notes)
+    say_notes(console, dataset.notes)
     kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
     with told_when_stopped("compare", lambda: kept, anew), steps_told("compare") as on_step:
         options = DiagnosisOptions(seed, jobs, **prepared, on_step=on_step)
@@ -65,6 +65,6 @@ def compare(
     page = write_comparison(folder, found, data)
     if as_json:
         say_json({**found.as_dict(), "notes": found.notes, "page": page})
-        return
-    print_comparison(found, console)
+    else:
+        print_comparison(found, console)
     say_page(console, page, open_page)

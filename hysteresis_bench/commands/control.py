@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,25 +14,41 @@ from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
+    import pandas as pd
     from rich.console import Console
 
     from hysteresis_bench.fit.model_file import FittedModel
 
 existing_file = click.Path(path_type=Path)
-FEED_FORWARD, TRACKING = "feed-forward.csv", "tracking.svg"
+FEED_FORWARD, TRACKING, SWEEP, SWEPT = "feed-forward.csv", "tracking.svg", "sweep.csv", "sweep.svg"
 FILES = ("control.html", "control.csv", "responses.csv")
+AMPLITUDE_HELP = "Of the references; default: 2. Of a --sweep; default: four shares of the fitted range."
+SWEEP_HELP = "Expected error of a feed-forward along sines of these frequencies and several amplitudes, by the model."
+
+
+def _frequencies(context: click.Context, option: click.Parameter, text: str | None) -> tuple[float, ...]:
+    try:
+        found = tuple(float(part) for part in text.split(",")) if text else ()
+    except ValueError:
+        found = (0.0,)
+    if not all(0.0 < one < float("inf") for one in found):
+        raise click.BadParameter(f"{text} should read F,F,... such as 1,10,100: frequencies above 0.")
+    return found
 
 
 @click.command()
 @click.argument("model", type=existing_file)
-@click.option("--rig", help="Compare controllers on this virtual rig; see `list rigs`.")
+@click.option("--rig", metavar="NAME", help="Compare controllers on this virtual rig; see `list rigs`.")
 @click.option("--reference", type=existing_file, help="CSV with time and the wanted output: make the input for it.")
+@click.option("--sweep", callback=_frequencies, metavar="F,F,...", help=SWEEP_HELP)
 @click.option("--rate", type=click.FloatRange(min=0, min_open=True), help="Samples a second; default: 10000.")
-@click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help="Of the references; default: 2.")
+@click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
-@click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw what --reference makes.")
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option(
+    "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw the --reference, or the --sweep, here."
+)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
 @force_option
@@ -39,6 +56,7 @@ def control(
     model: Path,
     rig: str | None,
     reference: Path | None,
+    sweep: tuple[float, ...],
     rate: float | None,
     amplitude: float | None,
     voltage_limit: float | None,
@@ -49,7 +67,8 @@ def control(
     open_page: bool,
     force: bool,
 ) -> None:
-    """Use a fitted MODEL.json: the input that follows a trajectory (--reference), controllers on a rig (--rig)."""
+    """Use a fitted MODEL.json: the input that follows a trajectory (--reference), the error to expect over amplitude
+    and frequency (--sweep), controllers on a rig (--rig)."""
     from rich.console import Console
 
     from hysteresis_bench import control as control_on_rig
@@ -60,14 +79,18 @@ def control(
     from hysteresis_bench.report.shared.papers import check_figure
 
     if plot is not None:
-        if reference is None:
-            raise UserError("control", "--plot draws what --reference makes; give it, too.")
-        check_file(plot, [model, reference], force)
+        if (reference is None) == (not sweep):
+            raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
+        check_file(plot, [model, *([reference] if reference else [])], force)
         check_figure(plot)
-    if as_json and (rig is None or reference is not None):
-        raise UserError("control", "--json tells the comparison on a --rig, and that alone.")
-    if rig is None and reference is None:
-        raise UserError("control", "give --rig NAME to compare controllers, or --reference CSV for a feed-forward.")
+    if as_json and (bool(rig) == bool(sweep) or reference is not None):
+        raise UserError("control", "--json tells the comparison on a --rig, or a --sweep, and one of them alone.")
+    if rig is None and reference is None and not sweep:
+        raise UserError(
+            "control",
+            "give --rig NAME to compare controllers, --reference CSV for a feed-forward, or --sweep F,F,... for the "
+            "error to expect.",
+        )
     fitted, console = read_model(model), Console(soft_wrap=False)
     folder = out or Path(f"{model.stem}-control")
     check_folder(folder, FILES, FILES[0], [model, *([reference] if reference else [])], force)
@@ -78,6 +101,10 @@ def control(
             say_path(console, "figure", plot or folder / TRACKING)
         except ValueError as error:
             raise UserError(str(model), str(error)) from None
+    if sweep:
+        amplitudes = () if amplitude is None else (amplitude,)
+        drawn = folder / SWEPT if plot is None else plot
+        _sweep(fitted, model, sweep, amplitudes, folder=folder, drawn=drawn, as_json=as_json)
     if rig is not None:
         kept = f"no comparison was written to {folder}"
         with (
@@ -98,13 +125,11 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     import numpy as np
     import pandas as pd
 
-    from hysteresis_bench.control.feed_forward import INVERTIBLE, feed_forward
-    from hysteresis_bench.control.iterated_inverse import iterated_inverse
-    from hysteresis_bench.control.trajectory import follow
+    from hysteresis_bench.control.trajectories.driven import forward_of
+    from hysteresis_bench.control.trajectories.trajectory import follow
     from hysteresis_bench.data.csv_files import write_table
 
-    forward = feed_forward(fitted) if fitted.model in INVERTIBLE else iterated_inverse(fitted)
-    followed = follow(fitted, forward, path, np.inf if limit is None else limit)
+    followed = follow(fitted, forward_of(fitted), path, np.inf if limit is None else limit)
     columns = {"time": followed.time, "input": followed.input, "output": followed.output}
     table = pd.DataFrame({f"{name} [{fitted.units[name]}]": values for name, values in columns.items()})
     table["at_limit"] = followed.cut.astype(int)
@@ -118,11 +143,64 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
             f"{limit:g} and are cut, the first at time {first:g}; they are marked in the column at_limit.",
             highlight=False,
         )
-    if forward.linear:
-        console.print("The static inverse: the linear section's dynamics are left to feedback.", highlight=False)
-    if forward.ignored:
-        say_notes(console, [f"not inverted: {', '.join(forward.ignored)}."])
+    console.print(f"By the model the output follows to {followed.left:.1g} of its range.", highlight=False)
     say_path(console, "feed-forward", folder / FEED_FORWARD)
+
+
+def _sweep(
+    fitted: FittedModel,
+    model: Path,
+    frequencies: tuple[float, ...],
+    amplitudes: tuple[float, ...],
+    *,
+    folder: Path,
+    drawn: Path,
+    as_json: bool,
+) -> None:
+    from hysteresis_bench.commands.terminal.console import plain_console
+    from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.control.trajectories.sweep import sweep
+    from hysteresis_bench.data.csv_files import write_table
+    from hysteresis_bench.errors import UserError
+    from hysteresis_bench.report.shared.papers import draw_sweep
+
+    kept = f"nothing was written to {folder}"
+    with told_when_stopped("control", lambda: kept, "Run it again to begin anew."), steps_told("control") as on_step:
+        try:
+            found = sweep(fitted, frequencies, amplitudes, on_step)
+        except ValueError as error:
+            raise UserError(str(model), str(error)) from None
+    folder.mkdir(parents=True, exist_ok=True)
+    write_table(folder / SWEEP, found)
+    draw_sweep(drawn, found, fitted.units)
+    if as_json:
+        say_json({"sweep": found.to_dict("records"), "table": folder / SWEEP, "figure": drawn})
+        return
+    console = plain_console()
+    _print_sweep(found, fitted.units, console)
+    say_path(console, "table", folder / SWEEP)
+    say_path(console, "figure", drawn)
+
+
+def _print_sweep(found: pd.DataFrame, units: Mapping[str, str], console: Console) -> None:
+    from rich.markup import escape
+    from rich.table import Table
+
+    spelled = {name: "" if unit == "1" else f" [{unit}]" for name, unit in units.items()}
+    table = Table(title="feed-forward along sines, by the model", title_justify="left", box=None, pad_edge=False)
+    headings = (f"amplitude{spelled['output']}", f"frequency [1/{units['time']}]", f"input{spelled['input']}")
+    for heading in (*headings, "RMSE left", "RMSE expected", "share"):
+        table.add_column(escape(heading), justify="right")
+    for row in found.dropna(subset="left").itertuples():
+        numbers = (row.amplitude, row.frequency, row.input, row.left, row.expected)
+        shown = [f"{number:.3g}" for number in numbers]
+        table.add_row(*shown, f"{row.expected / row.amplitude:.1%}", style="yellow" if row.beyond else "")
+    console.print(table)
+    if found["beyond"].eq(True).any():
+        console.print("Yellow, or `beyond` in the table: inputs that the fit has not seen.", highlight=False)
+    for reason, rows in found[found["left"].isna()].groupby("reason", sort=False):
+        places = ", ".join(f"{row.amplitude:.3g} at {row.frequency:.3g}" for row in rows.itertuples())
+        console.print(f"{places}: {reason}", highlight=False, markup=False)
 
 
 def _draw_tracking(fitted: FittedModel, folder: Path, path: Path) -> None:

@@ -37,7 +37,7 @@ SHOWN = 8
 @click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
 @force_option
@@ -58,11 +58,17 @@ def diagnose(
     open_page: bool,
     force: bool,
 ) -> None:
-    """Find what the model lacks in DATA ...: the missing effect, the error before and after."""
+    """Find what the model lacks in DATA ...: the missing effect, the error before and after.
+
+    A run that was stopped goes on where it was when it is called again.
+    """
+    from dataclasses import replace
+
     from rich.console import Console
 
     from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
+    from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
@@ -74,12 +80,14 @@ def diagnose(
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
-    kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
-    with told_when_stopped("diagnose", lambda: kept, anew), steps_told("diagnose") as on_step:
-        options = DiagnosisOptions(seed, jobs, **prepared, accept_terms=accept_terms, laws=models, on_step=on_step)
-        found = find(dataset, model, effects, **asked, options=options)
-    path = write_diagnosis(folder, found, data)
-    page = write_diagnosis_page(path.parent)
+    options = DiagnosisOptions(seed, None, **prepared, accept_terms=accept_terms, laws=models)
+    with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
+        say_notes(Console(stderr=True), kept.notes)
+        with told_when_stopped("diagnose", kept.words), steps_told("diagnose") as on_step:
+            options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
+            found = find(dataset, model, effects, **asked, options=options)
+        path = write_diagnosis(folder, found, data)
+        page = write_diagnosis_page(path.parent)
     if as_json:
         click.echo(path.read_text(encoding="utf-8"), nl=False)
         return

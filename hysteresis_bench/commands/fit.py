@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 @model_options
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
 @preparation_options
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
 @json_option

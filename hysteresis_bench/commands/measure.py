@@ -14,7 +14,7 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 @click.argument("rig")
 @click.argument("experiment")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
-@click.option("--seed", type=int, default=0, show_default=True)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @force_option
 def measure(rig: str, experiment: str, out: Path, seed: int, force: bool) -> None:
     """Take data from a virtual RIG (see `list rigs`)."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -16,7 +17,6 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 @json_option
 def report(results: Path, open_it: bool, as_json: bool) -> None:
     """Write the report of a results folder again."""
-    from hysteresis_bench.data.csv_files import read_table
     from hysteresis_bench.diagnosis_study.results import STUDY
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
     from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
@@ -24,10 +24,17 @@ def report(results: Path, open_it: bool, as_json: bool) -> None:
 
     page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
     if as_json:
-        summary = results / "summary.csv"
-        table = read_table(summary).to_dict("records") if summary.is_file() else []
-        say_json({"summary": table, "report": page})
+        say_json({"summary": summary_of(results), "report": page})
     else:
         say_path(plain_console(), "report", page)
     if open_it:
         click.launch(str(page))
+
+
+def summary_of(results: Path) -> list[dict[str, Any]]:
+    """The rows of a study's summary; none where nothing finished, or for a study of diagnosis."""
+    from hysteresis_bench.data.csv_files import read_table
+    from hysteresis_bench.study.results import SUMMARY
+
+    file = results / SUMMARY
+    return read_table(file).to_dict("records") if file.is_file() else []

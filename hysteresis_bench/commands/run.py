@@ -10,6 +10,7 @@ import click
 
 from hysteresis_bench.commands.outputs import check_results, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 from hysteresis_bench.errors import UserError
 
@@ -30,6 +31,7 @@ DONE, FAILED_TRIALS = 0, 1
 @click.option("--retry", is_flag=True, help="Do again what was killed from outside, ran out of memory or never began.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run the trials on the workers of this Dask scheduler.")
 @click.option("--shard", metavar="I/N", help="Run the I-th of N parts only; `merge` puts them together.")
+@json_option
 @force_option
 def run(
     study: Path,
@@ -40,6 +42,7 @@ def run(
     retry: bool,
     scheduler: str | None,
     shard: str | None,
+    as_json: bool,
     force: bool,
 ) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
@@ -51,7 +54,7 @@ def run(
     from hysteresis_bench.study.run import Progress, RunOptions, default_folder
     from hysteresis_bench.study_diagnosis import run_with_diagnosis
 
-    console = plain_console()
+    console = plain_console(aside=as_json)
     part = Shard.read(shard) if shard else None
     folder = out or default_folder(study, part)
     check_results(folder, force)
@@ -59,7 +62,7 @@ def run(
         if retry or scheduler or shard or instances:
             none = "is a study of diagnosis: it has no --retry, --scheduler, --shard or --instances."
             raise UserError(str(study), none)
-        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console))
+        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console, as_json))
     check_published_beside(study)
     reached = [Progress(0, 0, None)]
 
@@ -77,12 +80,15 @@ def run(
         run_with_diagnosis(study, trials=trials, jobs=jobs, out=folder, options=options, on_progress=keep)
     if part:
         say_path(console, f"{kept()}; for `merge`, part {part}", folder)
+        if as_json:
+            say_json({"trials": reached[-1].done, "of": reached[-1].total, "results": folder})
         return
-    sys.exit(_report(read_results(folder), console))
+    sys.exit(_report(read_results(folder), console, as_json))
 
 
-def _report(results: Results, console: Console) -> int:
+def _report(results: Results, console: Console, as_json: bool) -> int:
     """Write and print it; returns the exit code."""
+    from hysteresis_bench.commands.report import summary_of
     from hysteresis_bench.report.study import write_report
     from hysteresis_bench.report.study.console import print_summary
     from hysteresis_bench.report.study.page import how_it_closed
@@ -90,9 +96,13 @@ def _report(results: Results, console: Console) -> int:
     from hysteresis_bench.study.results import FINISHED
 
     page = write_report(results.folder)
-    print_summary(results, console)
     failed = results.trials[~results.trials["status"].isin(FINISHED)]
     several = results.trials["instance"].nunique() > 1
+    if as_json:
+        columns = ["problem", "optimizer", "instance", "trial", "status", "reason"]
+        say_json({"summary": summary_of(results.folder), "failed": failed[columns].to_dict("records"), "report": page})
+    else:
+        print_summary(results, console)
     for row in failed.itertuples():
         which = f"instance {row.instance} · trial {row.trial}" if several else f"trial {row.trial}"
         told = f"{row.problem} · {row.optimizer} · {which}: {row.status}: {row.reason}"
@@ -108,7 +118,9 @@ def _report(results: Results, console: Console) -> int:
     return FAILED_TRIALS if unfinished else DONE
 
 
-def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console) -> int:
+def _run_diagnosis_study(
+    study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console, as_json: bool
+) -> int:
     """A study of diagnosis; returns the exit code."""
     from hysteresis_bench.diagnosis_study.results import read_cases
     from hysteresis_bench.diagnosis_study.run import CaseProgress, run_diagnosis_study
@@ -123,5 +135,8 @@ def _run_diagnosis_study(study: Path, trials: int | None, jobs: int | None, out:
         results_folder = run_diagnosis_study(study, trials=trials, jobs=jobs, out=out, on_progress=on_progress)
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
-    say_path(console, "report", write_diagnosis_study_page(results_folder))
+    page = write_diagnosis_study_page(results_folder)
+    say_path(console, "report", page)
+    if as_json:
+        say_json({"answer": answer(results_folder), "report": page})
     return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, cast
 
 import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Plant
-from hysteresis_bench.control.compensation import Compensation, Series, along
+from hysteresis_bench.control.compensation import Compensation, Forward, Series, along
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.references import Reference
 
@@ -76,7 +76,7 @@ class Run:
 def track(
     plant: Plant,
     controller: Controller,
-    forward: FeedForward,
+    forward: Forward,
     *,
     reference: Reference,
     limit: float,
@@ -86,11 +86,13 @@ def track(
     """Follow a reference from rest; the reference's samples are the plant's intervals.
 
     limit : of the voltage, to either side
-    series : the inverse runs on every commanded v, not along the reference; see `compensation`
+    series : the inverse, a FeedForward, runs on every commanded v, not along the reference; see `compensation`
     """
     samples = reference.time.size
     wanted = Target(reference.position - forward.offset, reference.velocity, reference.acceleration)
-    compensation: Compensation = Series(forward) if series else along(forward, controller.nominal(wanted))
+    compensation: Compensation = (
+        Series(cast(FeedForward, forward)) if series else along(forward, controller.nominal(wanted), reference.time)
+    )
     displacement, measured, voltage = np.empty(samples), np.empty(samples), np.empty(samples)
     cut = np.zeros(samples, dtype=bool)
     state, memory, carried = plant.rest(), controller.start(), compensation.start()

@@ -12,13 +12,14 @@ import pandas as pd
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import SteppedRig
 from hysteresis_bench.control.closed_loop import Controller, Run, track
+from hysteresis_bench.control.compensation import Forward
 from hysteresis_bench.control.controllers.pi import ProportionalIntegral
 from hysteresis_bench.control.controllers.sliding_mode import SlidingMode
 from hysteresis_bench.control.controllers.tuning import tune_pi, tune_sliding_mode
-from hysteresis_bench.control.feed_forward import FeedForward, feed_forward
 from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.control.suitability import check_units, range_words
+from hysteresis_bench.control.trajectories.driven import forward_of
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.seeds import generator
 from hysteresis_bench.kernels.resources import economical
@@ -96,7 +97,7 @@ def compare(
     Raises ValueError where units or ranges do not suit, the model has no inverse, its linear section is unstable, or
     the sampling is too slow.
     """
-    forward = feed_forward(fitted)
+    forward = forward_of(fitted)
     check_units(fitted, forward, rig, name)
     told = range_words(fitted, forward, rig.input_limit, amplitude)
     on_step(Step("tuning"))
@@ -129,7 +130,7 @@ def compare(
 
 
 def _controllers(
-    forward: FeedForward, interval: float, model_error: float
+    forward: Forward, interval: float, model_error: float
 ) -> tuple[dict[str, Controller], dict[str, dict[str, float]]]:
     pi = tune_pi(forward.linear, interval)
     feedback = ProportionalIntegral(forward.gain, pi.proportional, pi.integral, interval)
@@ -178,7 +179,7 @@ NOTES = (
 )
 
 
-def _warnings(scores: pd.DataFrame, forward: FeedForward, fitted: FittedModel) -> list[str]:
+def _warnings(scores: pd.DataFrame, forward: Forward, fitted: FittedModel) -> list[str]:
     sentences, cut = [], scores[scores["saturated_share"] > 0]
     if len(cut):
         worst = cut.loc[cut["saturated_share"].idxmax()]

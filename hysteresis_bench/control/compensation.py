@@ -5,7 +5,7 @@ model forgets its hysteresis along the path |du|, also on the smallest reversals
 (its small loops close). A law that chatters by a few hundredths of a volt at 10 kHz therefore wipes out the h of the
 inverse within milliseconds, and the compensation with it.
 `AlongReference` is ours: the inverse runs on the v that the reference needs, which is smooth, and what feedback adds
-is converted with the model's slope at h = 0, d (1 - alpha).
+is converted with the model's slope: at h = 0, d (1 - alpha), or of a law without such an inverse, its mean.
 
 Both know what they applied: where the voltage is cut, v is what the voltage that went out is worth.
 """
@@ -13,13 +13,16 @@ Both know what they applied: where the voltage is cut, v is what the voltage tha
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.inverse import Point
+from hysteresis_bench.control.iterated_inverse import IteratedInverse
+
+Forward: TypeAlias = FeedForward | IteratedInverse
 
 
 class Applied(NamedTuple):
@@ -54,24 +57,31 @@ class Series:
 
 @dataclass(frozen=True, eq=False)
 class AlongReference:
-    """The inverse along the v that the reference needs; nominal, input : (samples,) that v and its model input."""
+    """The inverse along the v that the reference needs.
 
-    forward: FeedForward
+    nominal, input : (samples,) that v and its model input;  slope : of v over it, for what feedback adds
+    """
+
+    forward: Forward
     nominal: Array
     input: Array
+    slope: float
 
     def start(self) -> None:
         return None
 
     def apply(self, state: None, sample: int, v: float, limit: float) -> tuple[None, Applied]:
-        slope = self.forward.hysteresis.d * (1.0 - self.forward.hysteresis.alpha)
-        planned, u = float(self.nominal[sample]), float(self.input[sample])
+        slope, planned, u = self.slope, float(self.nominal[sample]), float(self.input[sample])
         wanted = self.forward.voltage(u + (v - planned) / slope)
         voltage = min(max(wanted, -limit), limit)
         cut = voltage != wanted
         return None, Applied(voltage, planned + (self.forward.model_input(voltage) - u) * slope if cut else v, cut)
 
 
-def along(forward: FeedForward, nominal: Array) -> AlongReference:
-    """The inverse run once along the v of the reference, (samples,)."""
-    return AlongReference(forward, nominal, forward.hysteresis.input_for(np.asarray(nominal, dtype=float)))
+def along(forward: Forward, nominal: Array, time: Array) -> AlongReference:
+    """The inverse run once along the v of the reference, (samples,), with what linear effects need ahead."""
+    v = np.asarray(nominal, dtype=float)
+    if forward.dynamics is None:
+        return AlongReference(forward, nominal, *forward.along(v))
+    u, slope = forward.along(forward.dynamics.output_for(time, v))
+    return AlongReference(forward, nominal, forward.dynamics.input_for(time, u), slope)

@@ -16,6 +16,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.control.inverse import BoucWenInverse, Point
+from hysteresis_bench.control.linear_dynamics import Dynamics, dynamics_of, undone
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.registry import BOUC_WEN, HAMMERSTEIN
@@ -47,6 +48,13 @@ class LinearSection:
         """Displacement at rest over v."""
         return self.b / self.stiffness
 
+    def undone(self, time: Array, wanted: Array) -> Array:
+        """The v, times the gain at rest, that makes the section follow, (samples,); time : even"""
+        from hysteresis_bench.kernels.second_order import second_order
+
+        damping, stiffness = np.array([self.damping]), np.array([self.stiffness])
+        return undone(lambda x: second_order(time, x[:, None], damping, stiffness)[:, 0], wanted)
+
     def driven(self, position: Any, velocity: Any, acceleration: Any) -> Any:
         """The v that makes the section move so; numbers or arrays."""
         return (acceleration + self.damping * velocity + self.stiffness * position) / self.b
@@ -58,6 +66,7 @@ class FeedForward:
 
     offset : of the displacement, subtracted before anything else
     ignored : effects of the model that no inverse exists for; feedback has to deal with them
+    dynamics : linear effects, which a trajectory's input undoes
     """
 
     hysteresis: BoucWenInverse
@@ -65,6 +74,7 @@ class FeedForward:
     offset: float = 0.0
     preparation: Preparation = AS_IT_IS
     ignored: tuple[str, ...] = ()
+    dynamics: Dynamics | None = None
 
     @property
     def gain(self) -> float:
@@ -92,6 +102,10 @@ class FeedForward:
             return reached, wanted, False
         voltage = float(np.clip(wanted, -limit, limit))
         return self.hysteresis.moved(point, self.model_input(voltage)), voltage, True
+
+    def along(self, v: Array) -> tuple[Array, float]:
+        """The model's input, (samples,), where its hysteresis makes v, and the slope of v over it at h = 0."""
+        return self.hysteresis.input_for(v), self.hysteresis.d * (1.0 - self.hysteresis.alpha)
 
     def input_for(self, position: Array, limit: float = np.inf) -> tuple[Array, Array]:
         """The actuator's input that makes the static model follow a displacement, and where the limit cut it.
@@ -123,8 +137,12 @@ def feed_forward(fitted: FittedModel) -> FeedForward:
         raise ValueError(" ".join(faults))
     system, still = fitted.system, Record(np.arange(2.0), np.zeros(2), None, units=fitted.units)
     offset = float(sum(np.ravel(each)[0] for each in system.offsets(still, fitted.values[:, None])))
-    ignored = tuple(name for name, effect in system.effects if type(effect).offset is Effect.offset)
-    return FeedForward(hysteresis, linear, offset, fitted.preparation, ignored)
+    dynamics = dynamics_of(fitted)
+    known = dynamics.names if dynamics else ()
+    ignored = tuple(
+        name for name, effect in system.effects if type(effect).offset is Effect.offset and name not in known
+    )
+    return FeedForward(hysteresis, linear, offset, fitted.preparation, ignored, dynamics)
 
 
 def _or_fault(faults: list[str], build: Callable[..., Part], *arguments: float) -> Part | None:

@@ -11,13 +11,15 @@ the wanted range, and doubled wherever the error grows.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Effect
+from hysteresis_bench.control.linear_dynamics import Dynamics, dynamics_of, part_of
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.signals import Record
@@ -40,14 +42,17 @@ class IteratedInverse:
     """What `follow` asks of a feed-forward.
 
     system : the law with the effects that know no time;  values : (dimension,) of it
-    ignored : effects that are left to feedback
+    ignored : effects that are left to feedback;  dynamics : linear ones, which a trajectory's input undoes
     """
 
     system: System
     values: Array
     preparation: Preparation
     ignored: tuple[str, ...] = ()
-    linear: None = field(default=None, init=False)
+    dynamics: Dynamics | None = None
+    linear: ClassVar[None] = None
+    gain: ClassVar[float] = 1.0
+    offset: ClassVar[float] = 0.0
 
     def input_for(self, position: Array, limit: float = np.inf) -> tuple[Array, Array]:
         """The actuator's input that makes the law follow a displacement, and where the limit cut it.
@@ -77,6 +82,21 @@ class IteratedInverse:
             f"no input was found that makes the model follow the reference: {best / span:.2g} of its range is left. "
             "The law may saturate, or its output may fall where the input rises."
         )
+
+    def voltage(self, u: float) -> float:
+        """The actuator's input for the model's."""
+        return self.preparation.measured_input(u)
+
+    def model_input(self, voltage: float) -> float:
+        """The model's input for the actuator's."""
+        u = voltage - self.preparation.input_offset
+        return -u if self.preparation.flip else u
+
+    def along(self, v: Array) -> tuple[Array, float]:
+        """The model's input, (samples,), where the law makes v, and the mean slope of v over it."""
+        u = self.input_for(v)[0] - self.preparation.input_offset
+        u = -u if self.preparation.flip else u
+        return u, float(np.ptp(v)) / (float(np.ptp(u)) or 1.0)
 
     def _limited(self, u: Array, limit: float) -> Array:
         if np.isinf(limit):
@@ -112,18 +132,13 @@ class IteratedInverse:
 
 def iterated_inverse(fitted: FittedModel) -> IteratedInverse:
     """The static part of a fitted model, to be inverted; its offsets stay in it."""
-    system = fitted.system
+    system, dynamics = fitted.system, dynamics_of(fitted)
     kept = tuple(pair for pair in system.effects if _kept(pair[1]))
-    static = replace(system, effects=kept, fixed={k: v for k, v in system.fixed.items() if _belongs(k, kept)})
-    value_of = dict(zip((p.name for p in system.parameters), fitted.values, strict=True))
-    values = np.array([value_of[p.name] for p in static.parameters])
-    ignored = tuple(name for name, effect in system.effects if not _kept(effect))
-    return IteratedInverse(static, values, fitted.preparation, ignored)
+    static, values = part_of(fitted, system.model, kept)
+    known = {*dict(kept), *(dynamics.names if dynamics else ())}
+    ignored = tuple(name for name, _ in system.effects if name not in known)
+    return IteratedInverse(static, values[:, 0], fitted.preparation, ignored, dynamics)
 
 
 def _kept(effect: Effect) -> bool:
     return effect.family in STATIC or type(effect).offset is not Effect.offset
-
-
-def _belongs(name: str, effects: tuple[tuple[str, Effect], ...]) -> bool:
-    return "." not in name or name.rpartition(".")[0] in {effect for effect, _ in effects}

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from hysteresis_bench.contracts import SteppedRig
-from hysteresis_bench.control.feed_forward import FeedForward
+from hysteresis_bench.control.compensation import Forward
 from hysteresis_bench.data.units import same_unit
 from hysteresis_bench.fit.model_file import FittedModel
 
@@ -13,7 +13,7 @@ WORTH_WHILE = 0.25
 """Share of the amplitude that a rig must be able to reach by the model."""
 
 
-def check_units(fitted: FittedModel, forward: FeedForward, rig: SteppedRig, name: str) -> None:
+def check_units(fitted: FittedModel, forward: Forward, rig: SteppedRig, name: str) -> None:
     """Raises ValueError where the rig's units are not the model's; a model without units is taken to have the rig's."""
     compared = ("time", "input", "output") if forward.linear else ("input", "output")
     faults = [
@@ -27,7 +27,7 @@ def check_units(fitted: FittedModel, forward: FeedForward, rig: SteppedRig, name
         raise ValueError(" ".join([*faults, "Fit the model to data in the rig's units."]))
 
 
-def range_words(fitted: FittedModel, forward: FeedForward, limit: float, amplitude: float) -> list[str]:
+def range_words(fitted: FittedModel, forward: Forward, limit: float, amplitude: float) -> list[str]:
     """What is odd about the range of the input, a sentence each; limit : of the rig, to either side.
 
     Raises ValueError where the rig reaches less than WORTH_WHILE of the amplitude.
@@ -59,7 +59,7 @@ def range_words(fitted: FittedModel, forward: FeedForward, limit: float, amplitu
     return found
 
 
-def _needed(forward: FeedForward, amplitude: float) -> float:
+def _needed(forward: Forward, amplitude: float) -> float:
     """The largest input, by the static inverse, of one slow period."""
     period = amplitude * np.sin(np.linspace(0.0, 2.0 * np.pi, 401))
     return float(np.max(np.abs(forward.input_for(period + forward.offset)[0])))

@@ -39,13 +39,13 @@ class Layout:
     def __post_init__(self) -> None:
         faults = []
         if self.delimiter is not None and self.delimiter not in DELIMITERS:
-            faults.append(f'--delimiter: "{self.delimiter}" is none of comma, semicolon, tab, bar, space.')
+            faults.append(f'delimiter "{self.delimiter}" is none of comma, semicolon, tab, bar, space.')
         if self.decimal not in (None, ".", ","):
-            faults.append(f'--decimal: "{self.decimal}" is neither "." nor ",".')
+            faults.append(f'decimal mark "{self.decimal}" is neither "." nor ",".')
         if self.rate is not None and not 0.0 < self.rate < float("inf"):
-            faults.append(f"--rate: {self.rate:g} is no number of samples a second.")
+            faults.append(f"rate {self.rate:g} is no number of samples a second.")
         if self.rate is not None and self.time is not None:
-            faults.append("give --rate or --time, not both.")
+            faults.append("give a rate or a column of time, not both.")
         if faults:
             raise UserError("how the data are read", faults)
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
+from hysteresis_bench.diagnosis.hypotheses.workers import Kept
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.checks.asked import asked_faults, parameter_faults
 from hysteresis_bench.fit.preparation import Preparation
@@ -32,6 +33,7 @@ class DiagnosisOptions:
     laws : models among which the law is sought where none is named, all registered ones where empty
     accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
     on_step : called with where the diagnosis is
+    kept : fits of an earlier run that was stopped, which are not made again; every new one is given to it
     """
 
     seed: int = 0
@@ -43,6 +45,7 @@ class DiagnosisOptions:
     accept_terms: bool = False
     laws: Sequence[str] = ()
     on_step: OnStep = field(default=quiet, compare=False, repr=False)
+    kept: Kept | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)

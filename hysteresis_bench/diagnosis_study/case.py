@@ -35,7 +35,7 @@ class Case:
     named : hidden effects that were claimed by name;  tied : claimed only as tied with another
     missed : hidden and neither;  extra : claimed without being hidden
     before, after : RMSE held out, over the noise (an estimate where the rig does not tell);  fresh : the same, after,
-        on records that were neither fitted nor held out;  unfitted : fitted RMSE of the bare model over the noise
+        on records that were neither fitted nor held out, without what is imperfect about these;  unfitted : fitted RMSE of the bare model over the noise
     """
 
     bench: str
@@ -89,7 +89,8 @@ def run_case(ticket: CaseTicket) -> Case:
     before, after = (stage.held_out or stage.fitted for stage in (found.before, found.after))
     fresh = None
     if bench.fresh:
-        records = measure(rig, bench.fresh, *key)
+        sound = {name: value for name, value in bench.settings.items() if name != "imperfect"}
+        records = measure(build_rig(bench.model_copy(update={"settings": sound}), ticket.number), bench.fresh, *key)
         predicted = found.model.predict(records)
         errors = [p.output - r.output for p, r in zip(predicted.records, records.records, strict=True)]  # type: ignore[operator]
         fresh = float(np.sqrt(np.mean(np.concatenate(errors) ** 2))) / noise

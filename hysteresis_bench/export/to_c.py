@@ -75,6 +75,8 @@ class _Writer:
         match node:
             case ast.Expr(ast.Constant()):
                 return
+            case ast.Expr(ast.Call() as call):
+                yield f"{self.call(call)};"
             case ast.Assign([ast.Tuple(targets)], ast.Tuple(values)):
                 self.results = max(self.results, len(values))
                 yield from (f"several[{i}] = {self.expression(value)};" for i, value in enumerate(values))

@@ -11,6 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Rig
 from hysteresis_bench.data.data_files import read_data
+from hysteresis_bench.data.layout import AS_THEY_SAY
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
@@ -115,7 +116,14 @@ def _of_rig(spec: ProblemSpec, seed: int, instance: int) -> Dataset:
 
 
 def _read(spec: ProblemSpec, folder: Path) -> Dataset:
-    dataset = read_data([folder / file for file in spec.data])
+    try:
+        layout = spec.layout.layout if spec.layout else AS_THEY_SAY
+        dataset = read_data([folder / file for file in spec.data], layout=layout)
+    except UserError as error:
+        if not any(" --" in fault for fault in error.faults):
+            raise
+        told = 'In a study, what an option says stands in the problem: layout = { input = "NAME", decimal = "," }.'
+        raise UserError(error.where, [*error.faults, told]) from None
     wanted = [*(spec.fitted or [name for name in dataset.names if name not in spec.held_out]), *spec.held_out]
     unknown = [name for name in wanted if name not in dataset.names]
     if unknown:

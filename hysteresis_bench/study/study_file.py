@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import Field, PositiveInt, model_validator
 
 from hysteresis_bench import registry
+from hysteresis_bench.data.layout import ROLES, Layout
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.parameters import Scaling
 from hysteresis_bench.study.strict import Seconds, Strict, read_toml, shown, validated
@@ -27,9 +28,38 @@ class OptimizerSpec(Strict):
         return self.label or self.plugin
 
 
+class LayoutSpec(Strict):
+    """How data files are read where they do not say it: the options of the commands that read data, as keys.
+
+    time, input, output : a column's name, or its position from 1
+    """
+
+    time: str | PositiveInt | None = None
+    input: str | PositiveInt | None = None
+    output: str | PositiveInt | None = None
+    rate: float | None = None
+    delimiter: str | None = None
+    decimal: str | None = None
+    sheet: str | None = None
+
+    @property
+    def layout(self) -> Layout:
+        columns = {role: None if (one := getattr(self, role)) is None else str(one) for role in ROLES}
+        return Layout(**columns, rate=self.rate, delimiter=self.delimiter, decimal=self.decimal, sheet=self.sheet)
+
+    @model_validator(mode="after")
+    def readable(self) -> LayoutSpec:
+        try:
+            _ = self.layout
+        except UserError as error:
+            raise ValueError(" ".join(error.faults).removesuffix(".")) from None
+        return self
+
+
 class ProblemSpec(Strict):
     """One problem: where the data come from, what is fitted, and in which box.
 
+    layout : how the data files are read, where they do not say it
     fitted, held_out : experiments of the rig, or names of records (of the data: all where none is named)
     box : "data" derives it from the ranges of the fitted records, as `fit` does, and is the default on data files;
         "model" is the model's own, and the default on a rig
@@ -48,6 +78,7 @@ class ProblemSpec(Strict):
     rig: str | None = None
     rig_settings: dict[str, Any] = {}
     data: list[str] = []
+    layout: LayoutSpec | None = None
     fitted: list[str] = []
     held_out: list[str] = []
     scaling: Scaling | None = None
@@ -75,6 +106,8 @@ class ProblemSpec(Strict):
             raise ValueError('name either a rig = "..." or data = ["a.csv"], not both or none')
         if self.rig and not self.fitted:
             raise ValueError('fitted = ["..."] must name at least one experiment of the rig')
+        if self.rig and self.layout:
+            raise ValueError("layout says how data files are read; a rig has none")
         return self
 
 

@@ -48,7 +48,7 @@ def test_control_draws_tracking(here):
     assert "wanted" in (here / "c" / "tracking.svg").read_text(encoding="utf-8")
     told("control", "model.json", "--reference", "loop.csv", "--out", "c", "--plot", "t.pdf")
     assert (here / "t.pdf").read_bytes().startswith(b"%PDF")
-    assert "--plot draws what --reference makes" in told(
+    assert "--plot draws what --reference or --sweep makes" in told(
         "control", "model.json", "--rig", "pea", "--plot", "x.png", code=2
     )
 

@@ -20,7 +20,7 @@ from hysteresis_bench.control.controllers.tuning import PEAK, sliding_mode_loop,
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
 from hysteresis_bench.control.observer import observer
 from hysteresis_bench.control.references import Reference, published_references
-from hysteresis_bench.control.trajectory import follow, read_trajectory
+from hysteresis_bench.control.trajectories.trajectory import follow, read_trajectory
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, read_model, write_model
 from hysteresis_bench.fit.preparation import Preparation

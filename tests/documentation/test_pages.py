@@ -105,3 +105,21 @@ def test_every_room_is_named_in_contributing():
     package = ROOT / "hysteresis_bench"
     rooms = [path.parent for path in (*package.glob("*/__init__.py"), *package.glob("diagnosis/*/__init__.py"))]
     assert not [room.name for room in rooms if f"{room.relative_to(ROOT).as_posix()}/" not in text]
+
+
+def test_the_readme_begins_with_what_the_kept_results_say():
+    begins = " ".join((ROOT / "README.md").read_text(encoding="utf-8").split("\n## ")[0].split())
+    right, of = kept.named(True).split(" of ")
+    rows = kept.measurements()
+    over = rows["held_out_after"] / rows["noise"]
+    fell = int((rows["held_out_after"] < rows["held_out_before"]).sum())
+    for said in (
+        f"Of {of} cases with one to three effects hidden",
+        f"and nothing else, in {right};",
+        f"In {kept.unexplained()} diagnoses",
+        f"fell in {fell} of them",
+        f"ends at {over.min():.3g} to {over.max():.3g} times the noise, in the median at {over.median():.3g} times",
+        f"nothing else in {kept.named(False)} cases",
+        f"claimed in {kept.claimed_on_clean(False)} with nothing hidden",
+    ):
+        assert said in begins

@@ -81,8 +81,9 @@ def test_control_on_a_rig_that_can_be_stepped():
     assert "<table" in found._repr_html_()
     with pytest.raises(UserError, match="sma cannot be run sample by sample"):
         control(model, "sma")
-    with pytest.raises(UserError, match="no inverse"):
-        control(FittedModel("polynomial", {}, (), {}, UNITS, {}), "pea")
+    falling = {name: Estimate(value, None, "1") for name, value in (("a", -1.0), ("b", 0.0))}
+    with pytest.raises(UserError, match="No inverse: the output falls"):
+        control(FittedModel("polynomial", {}, (), {}, UNITS, falling), "pea")
 
 
 def test_diagnose_shows_what_it_found():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -11,6 +12,7 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
 from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 from hysteresis_bench.errors import UserError
 
@@ -18,6 +20,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.signals import Dataset
 
+SCHEMA = "study.schema.json"
 TEMPLATE = """\
 #:schema ./{schema}
 # Which optimizer finds the parameters of {model} on {title}?
@@ -31,7 +34,7 @@ timeout = "10 min"          # a trial
 [[problem]]
 name     = "{stem}"
 data     = [{data}]
-model    = "{model}"        # see: hysteresis-bench list models
+{layout}model    = "{model}"        # see: hysteresis-bench list models
 effects  = []               # around the model, innermost first; see: hysteresis-bench list effects
 fitted   = [{fitted}]
 held_out = [{held_out}]     # predicted at the end, never fitted
@@ -48,53 +51,54 @@ box      = "data"           # follows from the ranges of the records, as in `fit
 @data_options
 @click.option("--model", required=True, help="A registered model; see `list models`.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="The study file; default: NAME.toml.")
+@json_option
 @force_option
-def new_study(data: Sequence[Path], layout: Layout, model: str, out: Path | None, force: bool) -> None:
+def new_study(data: Sequence[Path], layout: Layout, model: str, out: Path | None, as_json: bool, force: bool) -> None:
     """Write a commented study file on DATA ..., ready to `run`."""
     from hysteresis_bench import registry
-    from hysteresis_bench.data.data_files import read_data, write_csv
-    from hysteresis_bench.data.layout import AS_THEY_SAY
+    from hysteresis_bench.data.data_files import read_data
     from hysteresis_bench.schemas.forms import schema
 
     if model not in registry.names("models"):
         raise UserError("new-study", registry.faults("models", model, {}))
     path = out or Path(f"{data[0].stem}.toml")
-    plain = path.with_name(f"{path.stem}-records.csv")
-    told = path.with_name("study.schema.json")
+    check_file(path, data, force)
     dataset, console = read_data(data, layout=layout), plain_console()
-    copied = layout != AS_THEY_SAY
-    for file in (path, *([plain] if copied else [])):
-        check_file(file, data, force)
-    if copied:
-        write_csv(plain, dataset)
-        files: Sequence[Path] = [plain]
-        dataset = read_data(files)
-    else:
-        files = [_beside(file, path) for file in data]
-    optimizers = dict.fromkeys((registry.SEARCH, registry.REFERENCE, registry.RANDOM_SEARCH))
-    path.write_text(_text(dataset, files, path, model, told.name, list(optimizers)), encoding="utf-8")
-    told.write_text(json.dumps(schema("study"), indent=1) + "\n", encoding="utf-8")
+    files = [_beside(file, path) for file in data]
+    path.write_text(_text(dataset, layout, files=files, path=path, model=model), encoding="utf-8")
+    path.with_name(SCHEMA).write_text(json.dumps(schema("study"), indent=1) + "\n", encoding="utf-8")
+    if as_json:
+        say_json({"records": [dict(row) for row in dataset.understood], "notes": dataset.notes, "study": path})
+        return
     say_understood(console, dataset)
     say_notes(console, dataset.notes)
-    if copied:
-        say_path(console, "records", plain)
     say_path(console, "study", path)
 
 
-def _text(dataset: Dataset, files: Sequence[Path], path: Path, model: str, schema: str, optimizers: list[str]) -> str:
+def _text(dataset: Dataset, layout: Layout, *, files: Sequence[Path], path: Path, model: str) -> str:
+    from hysteresis_bench import registry
+
     names = list(dataset.names)
     held_out = names[-max(1, round(len(names) / 3)) :] if len(names) > 1 else []
+    optimizers = dict.fromkeys((registry.SEARCH, registry.REFERENCE, registry.RANDOM_SEARCH))
     return TEMPLATE.format(
-        schema=schema,
+        schema=SCHEMA,
         model=model,
         title=", ".join(file.stem for file in files),
         name=path,
         stem=path.stem,
         data=_quoted([str(file.name if file.parent == path.parent else file) for file in files]),
+        layout=_layout_line(layout),
         fitted=_quoted([name for name in names if name not in held_out]),
         held_out=_quoted(held_out),
         optimizers="".join(f'\n[[optimizer]]\nplugin = "{name}"\n' for name in optimizers),
     )
+
+
+def _layout_line(layout: Layout) -> str:
+    """What the files do not say, as a key of the problem; empty where they say it all."""
+    said = [f"{key} = {json.dumps(value, ensure_ascii=False)}" for key, value in asdict(layout).items() if value]
+    return f"layout   = {{ {', '.join(said)} }}\n" if said else ""
 
 
 def _beside(file: Path, study: Path) -> Path:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
 
@@ -14,6 +16,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from hysteresis_bench import registry
+    from hysteresis_bench.testing.check import Verdict
 
 SINGULAR: dict[str, registry.Kind] = {
     "optimizer": "optimizers",
@@ -28,23 +31,27 @@ FAILED = 1
 @click.argument("name")
 @click.option("--kind", type=click.Choice(list(SINGULAR)), help="Where a name is of several kinds.")
 @click.option("--timeout", type=float, default=120.0, show_default=True, help="Seconds that a test may take.")
-def check_plugin(name: str, kind: str | None, timeout: float) -> None:
+@json_option
+def check_plugin(name: str, kind: str | None, timeout: float, as_json: bool) -> None:
     """Test whether the plugin NAME keeps its contract; exit code 1 where it does not."""
     from hysteresis_bench import registry
+    from hysteresis_bench.testing.check import BROKEN
 
     asked = {word: SINGULAR[word] for word in ([kind] if kind else SINGULAR)}
     found = {word: one for word, one in asked.items() if name in registry.names(one)}
     if not found:
         known = [other for one in asked.values() for other in registry.names(one)]
         raise UserError("check-plugin", f'no {kind or "plugin"} "{name}". {nearest(name, known)}')
-    console = plain_console()
-    kept = [_check(console, word, one, name, timeout) for word, one in found.items()]
-    if not all(kept):
+    console = plain_console(aside=as_json)
+    verdicts = {word: _check(console, word, one, name, timeout) for word, one in found.items()}
+    if as_json:
+        say_json([{"kind": word, "name": name, **asdict(one)} for word, told in verdicts.items() for one in told])
+    if any(verdict.status == BROKEN for told in verdicts.values() for verdict in told):
         sys.exit(FAILED)
 
 
-def _check(console: Console, word: str, kind: registry.Kind, name: str, timeout: float) -> bool:
-    """Print one line a promise; are all kept?"""
+def _check(console: Console, word: str, kind: registry.Kind, name: str, timeout: float) -> list[Verdict]:
+    """Print one line a promise."""
     from rich.markup import escape
 
     from hysteresis_bench import registry
@@ -52,17 +59,17 @@ def _check(console: Console, word: str, kind: registry.Kind, name: str, timeout:
 
     plugin = registry.load(kind, name)
     console.print(f"[bold]{word} {escape(name)}[/] of {escape(plugin.distribution)} {escape(plugin.version)}")
-    broken = count = 0
+    verdicts = []
     for verdict in check(kind, name, timeout):
-        count += 1
+        verdicts.append(verdict)
         if verdict.status == BROKEN:
-            broken += 1
             console.print(f"  [red]broken[/]  {escape(verdict.promise)}", highlight=False)
             console.print(f"          [red]{escape(verdict.reason)}[/]", highlight=False, soft_wrap=True)
         elif verdict.reason:
             console.print(f"  {verdict.promise}: {escape(verdict.reason)}", highlight=False, soft_wrap=True)
         else:
             console.print(f"  kept    {escape(verdict.promise)}", highlight=False)
-    told = f"{broken} of {count} promises are broken." if broken else "Every promise is kept."
+    broken = sum(verdict.status == BROKEN for verdict in verdicts)
+    told = f"{broken} of {len(verdicts)} promises are broken." if broken else "Every promise is kept."
     console.print(told, highlight=False)
-    return not broken
+    return verdicts

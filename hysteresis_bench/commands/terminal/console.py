@@ -15,11 +15,14 @@ if TYPE_CHECKING:
 open_option = click.option("--open", "open_page", is_flag=True, help="Open the page in a browser.")
 
 
-def plain_console() -> Console:
-    """As wide as the terminal; 120 columns for a file or a pipe, which have no width of their own."""
+def plain_console(aside: bool = False) -> Console:
+    """As wide as the terminal; 120 columns for a file or a pipe, which have no width of their own.
+
+    aside : on standard error, where standard output is for a program
+    """
     from rich.console import Console
 
-    console = Console()
+    console = Console(stderr=aside)
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = 120
     return console

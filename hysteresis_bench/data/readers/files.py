@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.data.layout import Layout
+from hysteresis_bench.data.readers.apart import read_apart
 from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark
 from hysteresis_bench.data.readers.sheet import TOP, Sheet, top_of, units_in
 from hysteresis_bench.data.readers.text import read_text
@@ -60,9 +61,9 @@ def _read(path: Path, layout: Layout) -> list[Sheet]:
     if suffix in (".npz", ".npy"):
         return _of_arrays(_numpy(path))
     if suffix == ".mat":
-        return _of_arrays(_matlab(path))
+        return read_apart(lambda: _of_arrays(_matlab(path)), path, _kind(path))
     if suffix in (".h5", ".hdf5", ".hdf"):
-        return _of_arrays(_hdf5(path))
+        return read_apart(lambda: _of_arrays(_hdf5(path)), path, "HDF5")
     return [read_text(path, layout)]
 
 

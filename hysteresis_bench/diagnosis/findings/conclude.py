@@ -65,6 +65,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         advice=_advice(found, ties),
         memory=evidence.memory,
         equation=left.equation,
+        slow_noise=left.slow,
         model=_model(after, prepared, question),
         responses=_responses(prepared.dataset, stages.before, after),
         split={

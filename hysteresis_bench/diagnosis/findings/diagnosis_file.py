@@ -132,7 +132,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "noise_rms": diagnosis.noise.floor,
         "noise": {**asdict(diagnosis.noise), "words": diagnosis.noise.words},
         "floor": diagnosis.floor,
-        "doubtful": diagnosis.after.fitted.rmse > WRONG * diagnosis.floor,
+        "doubtful": diagnosis.after.fitted.rmse > WRONG * diagnosis.floor and not diagnosis.slow_noise,
         "residual": {"before": _tests(diagnosis.before.tests), "after": _tests(diagnosis.after.tests)},
         "waterfall": [{"system": label, "rmse": rmse} for label, rmse in diagnosis.waterfall],
         "candidates": [_candidate(candidate) for candidate in diagnosis.candidates],

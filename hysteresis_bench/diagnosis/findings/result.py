@@ -33,6 +33,7 @@ class Diagnosis:
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
+    slow_noise : what is left is noise that changes slowly
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
     model : ready to predict and to be written
     """
@@ -60,6 +61,7 @@ class Diagnosis:
     units: Mapping[str, str]
     given_up: Fallback | None
     unseen: float
+    slow_noise: bool = False
     laws: Comparison | None = None
 
     def _repr_html_(self) -> str:

@@ -6,9 +6,10 @@ import multiprocessing
 import os
 import signal
 from collections.abc import Iterator, Sequence
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import replace
 from types import TracebackType
-from typing import Any, Generic, Self, TypeVar
+from typing import Any, Generic, Protocol, Self, TypeVar, cast
 
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.progress import OnStep, Step, quiet
@@ -26,14 +27,23 @@ WORDS = {
 }
 
 
+class Kept(Protocol):
+    """Answers of an earlier run, by (fitter, method's name, *arguments): all that determines them but the code."""
+
+    def get(self, question: tuple[Any, ...]) -> Any | None: ...
+
+    def __setitem__(self, question: tuple[Any, ...], answer: Any) -> None: ...
+
+
 class Workers(Generic[Answer]):
-    """Runs methods of a fitter, in order of the answers; in this process where there is one job, or no fork.
+    """Runs methods of a fitter, in order of the questions; in this process where there is one job, or no fork.
 
     Answer : what the methods return;  on_step : told of every answer
+    kept : asked before anything is run, and given every answer as it comes
     """
 
-    def __init__(self, fitter: Any, jobs: int, on_step: OnStep = quiet) -> None:
-        self._on_step = on_step
+    def __init__(self, fitter: Any, jobs: int, on_step: OnStep = quiet, kept: Kept | None = None) -> None:
+        self._on_step, self._kept = on_step, kept
         self._fitter = fitter
         self._pool: ProcessPoolExecutor | None = None
         if jobs > 1 and "fork" in multiprocessing.get_all_start_methods():
@@ -55,23 +65,36 @@ class Workers(Generic[Answer]):
 
     def map(self, questions: Sequence[tuple[Any, ...]]) -> list[Answer]:
         """questions : (method's name, *arguments)"""
-        if self._pool and len(questions) > 1:
-            answers: Iterator[Answer] = self._pool.map(_answer, questions)
-        else:
-            answers = (getattr(self._fitter, method)(*arguments) for method, *arguments in questions)
-        return list(self._told(answers, questions))
+        answers = [self._known(question) for question in questions]
+        new = [place for place, answer in enumerate(answers) if answer is None]
+        if questions:
+            step = Step(_words(*questions[0]), len(questions) - len(new), len(questions))
+            self._on_step(step)
+            for place, answer in self._answered(questions, new):
+                answers[place] = answer
+                if self._kept is not None:
+                    self._kept[self._fitter, *questions[place]] = answer
+                step = replace(step, done=step.done + 1)
+                self._on_step(step)
+        return cast(list[Answer], answers)
 
-    def _told(self, answers: Iterator[Answer], questions: Sequence[tuple[Any, ...]]) -> Iterator[Answer]:
-        """The answers, counted as they come."""
-        if not questions:
-            return
-        method, hypothesis, *_ = questions[0]
-        names = ", ".join(sorted(hypothesis.names)) if isinstance(hypothesis, Hypothesis) else ""
-        what = f"{WORDS.get(method, method)}{f' on {names}' if names else ''}"
-        self._on_step(Step(what, 0, len(questions)))
-        for done, answer in enumerate(answers, start=1):
-            self._on_step(Step(what, done, len(questions)))
-            yield answer
+    def _known(self, question: tuple[Any, ...]) -> Answer | None:
+        return None if self._kept is None else self._kept.get((self._fitter, *question))
+
+    def _answered(self, questions: Sequence[tuple[Any, ...]], places: Sequence[int]) -> Iterator[tuple[int, Answer]]:
+        """The answers to some of the questions, each with its place, as they come."""
+        if self._pool and len(places) > 1:
+            futures = {self._pool.submit(_answer, questions[place]): place for place in places}
+            yield from ((futures[future], future.result()) for future in as_completed(futures))
+        else:
+            for place in places:
+                method, *arguments = questions[place]
+                yield place, getattr(self._fitter, method)(*arguments)
+
+
+def _words(method: str, hypothesis: Any, *_: Any) -> str:
+    names = ", ".join(sorted(hypothesis.names)) if isinstance(hypothesis, Hypothesis) else ""
+    return f"{WORDS.get(method, method)}{f' on {names}' if names else ''}"
 
 
 def _install(fitter: Any, parent: int) -> None:

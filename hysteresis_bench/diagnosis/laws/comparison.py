@@ -80,7 +80,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         reachable = max(floor, memory(asked).branch_rmse) * (ALONE if len(asked) == 1 else 1.0)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
-    with Workers[Law](thin, jobs, options.on_step) as workers:
+    with Workers[Law](thin, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)

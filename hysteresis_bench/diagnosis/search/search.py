@@ -65,11 +65,11 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
         for part in (records, thinned(prepared.views))
     )
     possible, impossible = thin.stack.candidates()
-    on_step = question.options.on_step
-    with Workers[Hypothesis](thin, question.options.jobs or min(4, os.cpu_count() or 1), on_step) as workers:
+    options = question.options
+    jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
+    with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
         selection = Selection(thin, workers, evidence.floor, possible)
-        on_step(Step("the bare model"))
-        base = thin.bare(frozenset({registry.RECORD_OFFSET}))
+        (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
         best = selection.run(base)
         quieter = evidence.heard_anew(undisturbed(full, best))
         if quieter.noise.floor < QUIETER * evidence.noise.floor:

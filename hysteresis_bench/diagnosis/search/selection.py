@@ -92,7 +92,7 @@ class Selection:
             found = self._round(current)
             self.rounds.append(found)
             if found.chosen and len(self.adopted(current)) < MOST:
-                better = self._settle(self.fitter.refitted(found.hypotheses[found.chosen]))
+                better = self._settle(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
             else:
                 better = self._exchanged(current) or self._paired(found) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
@@ -200,7 +200,7 @@ class Selection:
         best = min(pairs, key=lambda hypothesis: hypothesis.cv_rmse, default=current)
         if not self.needed(current, best, count * (count - 1) // 2) or self.share(current, best) < NAMED:
             return None
-        return self._settle(self.fitter.refitted(best))
+        return self._settle(self.workers.map([("refitted", best)])[0])
 
     def _settle(self, current: Hypothesis) -> Hypothesis:
         """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
@@ -243,7 +243,7 @@ class Selection:
                 least = NAMED if more > 0 else 0.0
                 better = (clear or more < 0) and self.share(current, best) > least
                 if better or self.tied(current, best):
-                    return self.fitter.refitted(best)
+                    return self.workers.map([("refitted", best)])[0]
         return None
 
     def _extensions(self, hypothesis: Hypothesis, instead_of: Hypothesis | None = None) -> dict[str, Hypothesis]:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.errors import UserError
@@ -83,6 +84,26 @@ def draw_tracking(path: Path, columns: dict[str, Array], units: Units) -> None:
         legend(track)
 
     _save(path, 4.6, draw)
+
+
+def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
+    """Expected error over frequency, a line an amplitude; table : as `sweep` makes it"""
+
+    def draw(figure: Any) -> None:
+        axes = figure.subplots()
+        for place, (amplitude, rows) in enumerate(table.dropna(subset="expected").groupby("amplitude")):
+            colour, share = SERIES[place % len(SERIES)], 100.0 / rows["amplitude"]
+            unit = "" if units["output"] == "1" else f" {units['output']}"
+            label = f"amplitude {amplitude:.3g}{unit}"
+            axes.plot(rows["frequency"], share * rows["expected"], color=colour, marker="o", markersize=3, label=label)
+        axes.set_xscale("log")
+        axes.xaxis.set_major_formatter("{x:g}")
+        axes.set_ylim(bottom=0.0)
+        axes.set_xlabel(f"Frequency (1/{units['time']})")
+        axes.set_ylabel("Expected RMS error (% of amplitude)")
+        legend(axes)
+
+    _save(path, 2.8, draw)
 
 
 def _label(axes: Any, units: Units, x: str, y: str, said: str = "") -> None:

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.control.feed_forward import FeedForward
-from hysteresis_bench.control.iterated_inverse import IteratedInverse
+from hysteresis_bench.control.compensation import Forward
+from hysteresis_bench.control.trajectories.driven import Driven, drive
 from hysteresis_bench.data.data_files import read_columns, time_faults
 from hysteresis_bench.data.units import in_units
 from hysteresis_bench.errors import UserError
@@ -25,13 +25,20 @@ REFERENCE = "reference"
 @dataclass(frozen=True, eq=False)
 class Followed:
     """time, input, output : (samples,) in the model's units;  cut : where the limit changed the input
-    notes : what was done to the trajectory, a sentence each"""
+    reached : (samples,) what the whole model answers;  notes : what was done to the trajectory, a sentence each"""
 
     time: Array
     input: Array
     output: Array
     cut: Array
+    reached: Array
     notes: tuple[str, ...]
+
+    @property
+    def left(self) -> float:
+        """The largest error that the model leaves where nothing is cut, as a share of the trajectory's range."""
+        error = np.abs(self.reached - self.output)[~self.cut]
+        return float(np.max(error, initial=0.0)) / (float(np.ptp(self.output)) or 1.0)
 
 
 def read_trajectory(path: Path, units: Mapping[str, str]) -> Dataset:
@@ -51,15 +58,24 @@ def read_trajectory(path: Path, units: Mapping[str, str]) -> Dataset:
     return known.map(lambda one: Record(one.time, one.output, one.output, one.name, units))
 
 
-def follow(fitted: FittedModel, forward: FeedForward | IteratedInverse, path: Path, limit: float) -> Followed:
+def follow(fitted: FittedModel, forward: Forward, path: Path, limit: float) -> Followed:
     """The input for the trajectory of a CSV, prepared as the fit's records were; limit : of the input, to either side.
 
-    Raises UserError naming file, row and column.
+    Raises UserError naming file, row and column; ValueError where no input is found.
     """
     trajectory = read_trajectory(path, fitted.units)
     (record,) = trajectory.records
     passes = fitted.preparation.settle if is_closed(record) else 0
-    wanted = record.measured
-    needed, cut = (each[-wanted.size :] for each in forward.input_for(np.tile(wanted, passes + 1), limit))
+    settled = record.settled(passes) if passes else record
+    assert settled.output is not None
+    driven = drive(fitted, forward, settled.time, settled.output, limit)
+    needed, reached, cut = (each[-record.time.size :] for each in (driven.input, driven.reached, driven.cut))
     notes = (*trajectory.notes, *fitted.preparation.words([record], fitted.units["time"]))
-    return Followed(record.time, needed, wanted, cut, notes)
+    return Followed(record.time, needed, record.measured, cut, reached, (*notes, *_told(driven)))
+
+
+def _told(driven: Driven) -> Iterator[str]:
+    if driven.undone:
+        yield f"undone ahead: {', '.join(driven.undone)}; the trajectory must be known before it begins."
+    if driven.ignored:
+        yield f"not inverted: {', '.join(driven.ignored)}."

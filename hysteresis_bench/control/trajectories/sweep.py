@@ -1,0 +1,82 @@
+"""How well a feed-forward is expected to do: sines of several amplitudes and frequencies, by the fitted model."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.control.trajectories.driven import drive, forward_of
+from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.progress import OnStep, Step, quiet
+
+SHARES = (0.1, 0.25, 0.5, 0.9)
+"""Amplitudes in half ranges of the fitted outputs, about their middle."""
+PERIODS, SCORED, SAMPLES = 4, 2, 250
+"""Of a sine, of these at the end scored, and samples a period."""
+
+
+def sweep(
+    fitted: FittedModel, frequencies: Sequence[float], amplitudes: Sequence[float] = (), on_step: OnStep = quiet
+) -> pd.DataFrame:
+    """A row an amplitude and frequency: amplitude, frequency, input (the largest), left, expected, beyond, reason.
+
+    frequencies : 1 / unit of time;  amplitudes : unit of the output, by default SHARES
+    left : RMS of the model's answer less the sine;  expected : of that and of the model's own error together
+    beyond : the input leaves the fitted range
+    reason : why no input was found, "" where one was
+    Raises ValueError where no input was found for any, or no amplitude is told and the model keeps no range.
+    """
+    forward, own = forward_of(fitted), _own_error(fitted)
+    ranges = fitted.data.get("ranges") or {}
+    if not ranges and not amplitudes:
+        raise ValueError("the model file does not keep the range of the fitted records; give an amplitude.")
+    low, high = ranges.get("output", (0.0, 0.0))
+    least, most = ranges.get("input", (-np.inf, np.inf))
+    middle, wanted = 0.5 * (low + high), tuple(amplitudes) or tuple(0.5 * (high - low) * share for share in SHARES)
+    rows: list[dict[str, Any]] = []
+    for amplitude, frequency in product(wanted, frequencies):
+        on_step(Step("sines", len(rows), len(wanted) * len(frequencies)))
+        row: dict[str, Any] = {"amplitude": amplitude, "frequency": frequency}
+        time, sine = _sine(frequency, amplitude)
+        try:
+            driven = drive(fitted, forward, time, middle + sine)
+        except ValueError as error:
+            rows.append(row | {"reason": str(error)})
+            continue
+        off = (driven.reached - middle - sine)[-SCORED * SAMPLES :]
+        left = float(np.sqrt(np.mean(off**2)))
+        found = {
+            "input": float(np.max(np.abs(driven.input))),
+            "left": left,
+            "expected": float(np.hypot(left, own)),
+            "beyond": bool(np.min(driven.input) < least or np.max(driven.input) > most),
+        }
+        rows.append(row | found | {"reason": ""})
+    if reasons := _everywhere(rows):
+        raise ValueError(reasons)
+    columns = ["amplitude", "frequency", "input", "left", "expected", "beyond", "reason"]
+    return pd.DataFrame(rows).reindex(columns=columns)
+
+
+def _everywhere(rows: Sequence[dict[str, Any]]) -> str:
+    """Why no input was found, "" where one was."""
+    return "" if any(not row["reason"] for row in rows) else " ".join(dict.fromkeys(row["reason"] for row in rows))
+
+
+def _own_error(fitted: FittedModel) -> float:
+    """RMSE on what was held out, or on what was fitted."""
+    errors = fitted.error.get("held_out") or fitted.error.get("fitted") or {}
+    return float(errors.get("rmse", np.nan))
+
+
+def _sine(frequency: float, amplitude: float) -> tuple[Array, Array]:
+    """Time and a sine that fades in over its first two periods, both (samples,)."""
+    time = np.arange(PERIODS * SAMPLES) / (SAMPLES * frequency)
+    share = np.clip(time * frequency / (PERIODS - SCORED), 0.0, 1.0)
+    smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    return time, amplitude * smooth * np.sin(2.0 * np.pi * frequency * time)

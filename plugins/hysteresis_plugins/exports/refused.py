@@ -1,0 +1,15 @@
+"""What cannot go on by one sample of time and input, each with its reason."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, NoReturn
+
+
+def temperature_sensitivity(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
+    raise ValueError("it needs the temperature, and a step is given time and input alone")
+
+
+def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
+    if effect.terms:
+        raise ValueError("its terms are made of a whole record, samples to come included")

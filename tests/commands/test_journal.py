@@ -1,0 +1,165 @@
+"""A diagnosis that was killed goes on where it was, and ends in the same file."""
+
+import os
+import re
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from hysteresis_bench.cli import main
+from hysteresis_bench.commands.data.journal import FILE, Journal, digest, journal
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.laws.law import Law
+from hysteresis_bench.errors import UserError
+from tests.conftest import ROOT
+
+CPU_TIME = r'"seconds": [0-9.e-]+'
+"""What a law cost, the only number that no two runs share."""
+KILLED = """
+import os, signal, sys
+from hysteresis_bench.cli import main
+from hysteresis_bench.commands.data.journal import Journal
+
+def noted(self, question, answer, known=Journal.__setitem__):
+    known(self, question, answer)
+    if len(self._answers) == int(sys.argv[1]):
+        os.kill(os.getpid(), signal.SIGKILL)
+Journal.__setitem__ = noted
+main(sys.argv[2:])
+"""
+
+
+def hypothesis(rmse=0.1):
+    wave = rmse * np.sin(np.arange(50.0))
+    return Hypothesis(frozenset({"bias", "creep"}), {"d": 0.1 + 0.2, "a": 1e-300}, wave, -wave, ("d",))
+
+
+@pytest.fixture
+def here(tmp_path, monkeypatch):
+    """A record that lags behind a curve, in the folder that we are in."""
+    monkeypatch.chdir(tmp_path)
+    t = np.arange(120) / 30.0
+    u = np.sin(2 * np.pi * t) * (0.5 + t / 8.0)
+    late, noise = np.sin(2 * np.pi * t - 0.4) * (0.5 + t / 8.0), np.random.default_rng(1).standard_normal(120)
+    rows = zip(t, u, late + 0.2 * late**3 + 0.002 * noise, strict=True)
+    lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
+    (tmp_path / "loop.csv").write_text("time,input,output\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    return tmp_path
+
+
+@pytest.mark.parametrize(
+    ("asked", "after"),
+    [(("--model", "polynomial"), 12), (("--models", "polynomial,dahl"), 6)],
+    ids=["of a model", "without a model"],
+)
+def test_killed_halfway_it_ends_in_the_same_file(here, monkeypatch, asked, after):
+    fits = []
+
+    def counted(self, *arguments, known=Fitter._finished):
+        fits.append(arguments)
+        return known(self, *arguments)
+
+    monkeypatch.setattr(Fitter, "_finished", counted)
+    command = ["diagnose", "loop.csv", *asked, "--jobs", "1", "--out"]
+    whole = CliRunner().invoke(main, [*command, "whole"])
+    assert whole.exit_code == 0, whole.output
+    needed, fits[:] = len(fits), []
+
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(ROOT / "tests" / "test_plugins")))}
+    killed = [sys.executable, "-c", KILLED, str(after), *command, "killed"]
+    assert subprocess.run(killed, env=environment, capture_output=True, check=False).returncode == -9
+    assert sorted(path.name for path in (here / "killed").iterdir()) == [FILE]
+
+    again = CliRunner().invoke(main, [*command, "killed"])
+    assert again.exit_code == 0, again.output
+    assert f"{after} fits of a run that was stopped are used" in " ".join(again.output.split())
+    assert needed - len(fits) >= after - 2  # laws that were refused cost no fit
+    ended, never = ((here / out / "diagnosis.json").read_text(encoding="utf-8") for out in ("killed", "whole"))
+    assert re.sub(CPU_TIME, "", ended) == re.sub(CPU_TIME, "", never)
+    assert not (here / "killed" / FILE).exists()
+
+
+def test_stopped_by_ctrl_c_it_says_what_is_kept(here, monkeypatch):
+    def stopped(self, question, answer, known=Journal.__setitem__):
+        known(self, question, answer)
+        if len(self._answers) == 3:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Journal, "__setitem__", stopped)
+    done = CliRunner().invoke(main, ["diagnose", "loop.csv", "--model", "polynomial", "--jobs", "1"])
+    assert done.exit_code == 130
+    told = " ".join(done.output.split())
+    assert f"3 finished fits are kept in loop-diagnosis/{FILE}. Run it again to continue." in told
+
+
+def test_answers_come_back_to_the_last_bit(tmp_path):
+    known, law = hypothesis(), Law("dahl", "", 0.1 + 0.2, np.nan, np.arange(3.0) / 7.0, 5, 1.5)
+    kept = Journal(tmp_path / FILE, "of")
+    kept["a", known], kept["b", 1.0] = known, law
+    again = Journal(tmp_path / FILE, "of")
+    found, found_law = again.get(("a", known)), again.get(("b", 1.0))
+    assert (found.names, found.values, found.at_bound) == (known.names, known.values, known.at_bound)
+    assert np.array_equal(found.residuals, known.residuals)
+    assert np.array_equal(found_law.unseen, law.unseen)
+    assert (found_law.fitted, found_law.parameters) == (law.fitted, law.parameters)
+    assert np.isnan(found_law.held_out)
+    assert again.get(("a", hypothesis(0.2))) is None
+
+
+def test_what_is_damaged_is_told_and_fitted_again(tmp_path):
+    kept = Journal(tmp_path / FILE, "of")
+    kept["a",], kept["b",] = hypothesis(), hypothesis(0.3)
+    text = kept.path.read_text(encoding="utf-8")
+    kept.path.write_text(text[:-20], encoding="utf-8")  # killed while it wrote
+    again = Journal(kept.path, "of")
+    assert again.known == 1
+    assert "1 of 2 lines are damaged" in again.notes[1]
+    again["b",] = hypothesis(0.3)
+    assert Journal(kept.path, "of").known == 2
+
+    other = Journal(kept.path, "of other data")
+    assert other.known == 0
+    assert "is of other data, other options or another version" in other.notes[0]
+    other["c",] = hypothesis()
+    assert Journal(kept.path, "of other data").known == 1
+
+
+def test_a_question_that_is_refused_leaves_nothing(tmp_path):
+    def refused():
+        with journal(tmp_path / "out", 1) as kept:
+            kept["a",] = hypothesis()
+            raise UserError("diagnose", "no law can be fitted.")
+
+    with pytest.raises(UserError):
+        refused()
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_workers_ask_what_is_kept_first(tmp_path, jobs):
+    kept, told = Journal(tmp_path / FILE, "of"), []
+    fitter = Squares()
+    kept[fitter, "square", 2.0] = 4.5
+    with Workers(fitter, jobs, lambda step: told.append(step.done), kept) as workers:
+        assert workers.map([("square", 1.0), ("square", 2.0), ("square", 3.0)]) == [1.0, 4.5, 9.0]
+        assert workers.map([("square", 3.0)]) == [9.0]
+    assert told == [1, 2, 3, 1]
+    assert kept.get((fitter, "square", 1.0)) == 1.0
+
+
+class Squares:
+    def square(self, x):
+        return x * x
+
+
+def test_a_digest_tells_contents_apart():
+    record = np.arange(3.0)
+    assert digest((record, {"n": 1})) == digest((record.copy(), {"n": 1}))
+    assert digest(frozenset("abcdef")) == digest(frozenset("fedcba"))
+    different = [record, np.nextafter(record, 9.0), record[:2], {"n": 1}, {"n": 1.0}, {"n": True}, ("n", 1), len, max]
+    assert len(set(map(digest, different))) == len(different)
