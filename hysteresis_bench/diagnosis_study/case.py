@@ -35,7 +35,8 @@ class Case:
     named : hidden effects that were claimed by name;  tied : claimed only as tied with another
     missed : hidden and neither;  extra : claimed without being hidden
     before, after : RMSE held out, over the noise (an estimate where the rig does not tell);  fresh : the same, after,
-        on records that were neither fitted nor held out, without what is imperfect about these;  unfitted : fitted RMSE of the bare model over the noise
+        on records that were neither fitted nor held out, without what is imperfect about these
+    unfitted : fitted RMSE of the bare model over the noise
     """
 
     bench: str
