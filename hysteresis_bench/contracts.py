@@ -1,10 +1,9 @@
 """What a plugin promises: Model, Effect, Optimizer, Rig. Abstract here, final in the plugins.
 
-Everything is a swarm: a simulation is always of many parameter vectors at once, and one vector is a
-swarm of 1. Arrays are (samples, swarm), float64, swarm innermost and contiguous. Settings are the
-fields of a frozen dataclass; parameters are what a fit finds. A plugin imports this module,
-`parameters`, `signals` and `kernels`, and nothing above them; whatever is slow to import (its kernel,
-a library) it imports inside its method, so that `list` stays fast.
+Everything is a swarm: a simulation is always of many parameter vectors at once, and one vector is a swarm of 1. Arrays
+are (samples, swarm), float64, swarm innermost and contiguous. Settings are the fields of a frozen dataclass; parameters
+are what a fit finds. A plugin imports this module, `parameters`, `signals` and `kernels`, and nothing above them;
+whatever is slow to import (its kernel, a library) it imports inside its method, so that `list` stays fast.
 """
 
 from __future__ import annotations
@@ -41,14 +40,12 @@ Family: TypeAlias = Literal[
 ]
 """Effects of one family do alike. Of those that act in one place, the earlier family stands further inside."""
 
-
 Property: TypeAlias = Literal["rate-independent", "odd", "masing", "return-point", "congruent"]
 """What a law does at any value of its parameters, without effects inside or around it.
 
 rate-independent : the times of the samples do not matter;  odd : the input's mirror image gives the output's, from rest
 masing : every branch is one curve from its reversal on, as far as the memory of the reversal before reaches
-return-point : after an inner loop the output is what it was;  congruent : inner loops between the same two inputs are
-one curve, whatever came before
+return-point : after an inner loop the output is what it was;  congruent : inner loops between two inputs are one curve
 """
 
 
@@ -79,9 +76,8 @@ class Model(ABC):
     linear: ClassVar[tuple[str, ...]] = ()
     """Parameters in which the output is jointly affine, without effects inside: fits may eliminate them."""
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
-    """Effects that act inside the state equation, by name: the model applies them itself. Where "eddy-current" is
-    put around the model, `simulate` finds the effect's parameters as p.eddy_current, a namedtuple like p itself;
-    elsewhere p has no such field."""
+    """Effects that act inside the state equation, by name: the model applies them itself. With "eddy-current" around
+    the model, `simulate` finds its parameters as p.eddy_current, a namedtuple like p; else p has no such field."""
     properties: ClassVar[tuple[Property, ...]] = ()
     """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
     senses: ClassVar[tuple[int, ...]] = (-1, 1)
@@ -108,8 +104,7 @@ class Model(ABC):
 class Hiding:
     """What a formula may depend on that hides an effect in made data.
 
-    strength : 0 to 1, the larger the more the effect changes;  random : three numbers, 0 to 1, for whatever else is
-    free, such as a sign or a phase
+    strength : 0 to 1, the larger the more the effect changes;  random : 0 to 1 each, for a sign, a phase and the like
     time, drive, temperature : (samples,), evenly and finely sampled, temperature in degC;  drive : before any effect
     step : of the time;  duration : of the longest record;  fastest : highest frequency of the drives, 1 / unit of time
     amplitude : largest drive;  top : the bare model's output there
@@ -128,11 +123,9 @@ class Hiding:
 
 
 Response: TypeAlias = Callable[[Array], Array]
-"""response(u) -> output, (samples,) both."""
-
 HiddenForm: TypeAlias = Callable[[Response, Array, Hiding], Array]
 """form(inner, u, hiding) -> output: as Effect.apply, for one input (samples,) and without the effect's own code, by
-another formula or another discretisation. inner : the response of what is wrapped."""
+another formula or another discretisation. inner(u) -> output, (samples,) both : the response of what is wrapped."""
 
 
 class Effect(ABC):
@@ -144,8 +137,7 @@ class Effect(ABC):
     nuisance: ClassVar[bool] = False
     """True: it is estimated and never claimed. It stands outside all others that act where it does."""
     mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
-    """Other effects by name, and why data may not tell them from this one: the end of a sentence that a report prints.
-    It is enough for one of the two to say so."""
+    """Other effects by name, and why data may not tell them from it, as a sentence ends. One of the two may say so."""
     affine: ClassVar[bool] = False
     """Whether the output is an affine function of what is wrapped: the parameters in which that is affine stay so."""
     linear: ClassVar[tuple[str, ...]] = ()
@@ -153,8 +145,7 @@ class Effect(ABC):
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
     """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
     other_forms: ClassVar[tuple[HiddenForm, ...]] = ()
-    """Other formulas that the field has for the same effect, which the effect's own cannot reproduce. What they change
-    vanishes with the strength."""
+    """Other formulas of the field, which its own cannot reproduce. What they change vanishes with the strength."""
 
     @abstractmethod
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
@@ -210,10 +201,8 @@ class Objective(Protocol):
 
     @property
     def dimension(self) -> int: ...
-
     @property
     def budget(self) -> int: ...
-
     @property
     def evaluations(self) -> int: ...
 

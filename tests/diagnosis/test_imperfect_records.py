@@ -37,3 +37,12 @@ def test_spikes_are_bridged_and_told_and_do_not_change_what_is_found():
     assert sum("taken for spikes" in one for one in found.warnings) == len(data.records)
     assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
     assert np.max(np.abs(data.records[0].output)) > 0.0  # the caller's own records are as they were
+
+
+def test_noise_on_the_measured_input_is_no_dead_band_and_a_wider_one_is():
+    clean, _ = found_in("noisy-input")
+    assert clean.effects == ()
+    (row,) = [candidate for candidate in clean.candidates if candidate.effect == "backlash"]
+    assert row.p == 1.0
+    with_band, _ = found_in("noisy-input", ("backlash",))
+    assert with_band.effects == ("backlash",)
