@@ -3,7 +3,7 @@
 A few of them decide a least-squares fit. They are found without a model, bridged, and told one by one: a sample is a
 spike where it lies off the cubic through its two neighbours on either side by much more than the record's samples
 usually do and than the output moves around it, where its neighbours agree with each other once it is bridged (those
-of a step do not), and where the input does nothing of the kind.
+of a step do not), and where the input neither leaps nor turns: a device may do anything at a reversal.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Dataset, Record
 
 FAR = 10.0
@@ -32,6 +33,9 @@ SMALLEST = 2e-3
 
 MOST = 0.02
 """Share of a record's samples beyond which they are no lone samples; then none is touched."""
+
+TURN = 0.02
+"""Share of the input's range beyond which it turns."""
 
 AROUND = 3
 """Movements on either side that are looked at."""
@@ -66,6 +70,8 @@ def spikes(record: Record) -> Array:
     y, time = record.output.copy(), record.time
     off, loudness = distances(time, y)
     off[[0, 1, -2, -1]] = 0.0  # these have no two neighbours on either side
+    turns = turning_points(np.ascontiguousarray(record.input), TURN * float(np.ptp(record.input)))
+    off[np.unique(np.clip(np.asarray(turns)[:, None] + np.arange(-2, 3), 0, y.size - 1))] = 0.0
     usual = max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(y)))))
     least = np.maximum(FAR * usual * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
     found = []

@@ -29,7 +29,9 @@ def test_spikes_are_found_where_they_were_put(model, experiment):
     )
     put, found = np.flatnonzero(spiked.output != clean.output), spikes(spiked)
     assert set(found) <= set(put)
-    assert found.size >= put.size - 1  # one of 20 times the noise may hide in a fast movement
+    turns = np.flatnonzero(np.diff(np.sign(np.diff(clean.input)))) + 1
+    away = put[np.min(np.abs(put[:, None] - turns), axis=1) > 2]  # at a reversal a device may do anything
+    assert np.intersect1d(found, away).size >= away.size - 1  # one of 20 times the noise may hide in a fast movement
     again = without_spikes(Dataset((spiked,))).records[0]
     left = np.abs(again.output - clean.output)[found]
     assert np.max(left) < 0.25 * np.min(np.abs(spiked.output - clean.output)[found])
