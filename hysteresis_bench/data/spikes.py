@@ -3,7 +3,7 @@
 A few of them decide a least-squares fit. They are found without a model, bridged, and told one by one: a sample is a
 spike where it lies off the cubic through its two neighbours on either side by much more than the record's samples
 usually do and than the output moves around it, where its neighbours agree with each other once it is bridged (those
-of a step do not), and where the input neither leaps nor turns: a device may do anything at a reversal.
+of a step do not), and where the input does nothing of the kind.
 """
 
 from __future__ import annotations
@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Dataset, Record
 
 FAR = 10.0
@@ -33,9 +32,6 @@ SMALLEST = 2e-3
 
 MOST = 0.02
 """Share of a record's samples beyond which they are no lone samples; then none is touched."""
-
-TURN = 0.02
-"""Share of the input's range beyond which it turns."""
 
 AROUND = 3
 """Movements on either side that are looked at."""
@@ -70,8 +66,6 @@ def spikes(record: Record) -> Array:
     y, time = record.output.copy(), record.time
     off, loudness = distances(time, y)
     off[[0, 1, -2, -1]] = 0.0  # these have no two neighbours on either side
-    turns = turning_points(np.ascontiguousarray(record.input), TURN * float(np.ptp(record.input)))
-    off[np.unique(np.clip(np.asarray(turns)[:, None] + np.arange(-2, 3), 0, y.size - 1))] = 0.0
     usual = max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(y)))))
     least = np.maximum(FAR * usual * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
     found = []
@@ -79,7 +73,7 @@ def spikes(record: Record) -> Array:
         if abs(off[sample]) <= least[sample]:
             break
         now = float(distances(time, y, [sample])[0][0])  # bridged ones no longer count
-        if abs(now) > least[sample] and _lone(time, y, sample, now, usual):
+        if abs(now) > least[sample] and _lone(time, y, sample, now):
             y[sample] -= now
             found += [] if _moved_by_the_input(record, sample) else [sample]
     return np.sort(np.array(found, int)) if len(found) <= max(1.0, MOST * y.size) else nothing
@@ -103,7 +97,7 @@ def distances(time: Array, values: Array, samples: list[int] | None = None) -> t
     return values[at] - np.sum(weights * values[others], axis=1), np.sqrt(1.0 + np.sum(weights**2, axis=1))
 
 
-def _lone(time: Array, y: Array, sample: int, off: float, usual: float) -> bool:
+def _lone(time: Array, y: Array, sample: int, off: float) -> bool:
     """Does it lie off by more than the output moves around it, and do its neighbours agree without it?"""
     low, high = max(sample - AROUND - 1, 0), min(sample + AROUND + 2, y.size)
     moves = np.abs(np.concatenate([np.diff(y[low:sample]), np.diff(y[sample + 1 : high])]))
@@ -112,8 +106,8 @@ def _lone(time: Array, y: Array, sample: int, off: float, usual: float) -> bool:
     bridged = y.copy()
     bridged[sample] -= off
     beside = [k for k in range(max(sample - 2, 0), min(sample + 3, y.size)) if k != sample]
-    left, loudness = distances(time, bridged, beside)
-    return bool(np.all(np.abs(left) < np.maximum(AGREE * abs(off), 4.0 * usual * loudness)))
+    left, _ = distances(time, bridged, beside)
+    return bool(np.all(np.abs(left) < AGREE * abs(off)))
 
 
 def _moved_by_the_input(record: Record, sample: int) -> bool:

@@ -29,9 +29,7 @@ def test_spikes_are_found_where_they_were_put(model, experiment):
     )
     put, found = np.flatnonzero(spiked.output != clean.output), spikes(spiked)
     assert set(found) <= set(put)
-    turns = np.flatnonzero(np.diff(np.sign(np.diff(clean.input)))) + 1
-    away = put[np.min(np.abs(put[:, None] - turns), axis=1) > 2]  # at a reversal a device may do anything
-    assert np.intersect1d(found, away).size >= away.size - 1  # one of 20 times the noise may hide in a fast movement
+    assert found.size >= put.size - 1  # one of 20 times the noise may hide in a fast movement
     again = without_spikes(Dataset((spiked,))).records[0]
     left = np.abs(again.output - clean.output)[found]
     assert np.max(left) < 0.25 * np.min(np.abs(spiked.output - clean.output)[found])
@@ -59,6 +57,16 @@ def test_steps_kinks_relays_and_heavy_tails_are_left_alone(seed):
     for output in (steps, triangle, relay, laplace, counter):
         for rms in (0.0, 1e-3):
             assert spikes(record(output + noise(rms, seed))).size == 0
+
+
+@pytest.mark.parametrize("samples", [80, 100, 130, 900])
+def test_a_jump_at_every_reversal_is_the_devices_own(samples):
+    for seed in range(10):
+        time = np.linspace(0.0, 2.0, samples)
+        drive = np.sin(2.0 * np.pi * (time + np.random.default_rng(seed).random()))
+        jump = np.sign(np.gradient(drive)) * np.random.default_rng(seed).uniform(0.01, 0.5)
+        noise = 0.002 * np.random.default_rng(seed).standard_normal(samples)
+        assert spikes(record(drive + jump + noise, drive, time)).size == 0
 
 
 def test_what_the_input_does_is_no_spike():
