@@ -58,4 +58,6 @@ def test_a_fit_keeps_its_memory():
     fit(data, "bouc-wen", ["creep"], options=options)  # compiles
     before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
     fit(data, "bouc-wen", ["creep"], options=options)
-    assert resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before < 5000
+    assert (
+        resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before < 20000
+    )  # 66 alone in a process; 686 000 before; a process that ran other tests pages in more
