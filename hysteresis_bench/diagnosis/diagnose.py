@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
+from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
+from hysteresis_bench.diagnosis.laws.cause import law_as_cause
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
@@ -32,26 +35,29 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """
     dataset = without_spikes(dataset)
     if question.model:
-        return _diagnosed(dataset, question)
+        return _diagnosed(dataset, question, registry.names("models"))
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
     fitted, _ = with_held_out(dataset.map(question.preparation.skipped))
     laws = compare(fitted, replace(question, options=replace(question.options, skip=0.0)), effects_follow=True)
-    found = [_diagnosed(dataset, replace(question, model=law)) for law in _promising(laws, len(fitted.fitted) > 1)]
+    promising = _promising(laws, len(fitted.fitted) > 1)
+    found = [_diagnosed(dataset, replace(question, model=law), promising) for law in promising]
     best = min(found, key=lambda one: one.unseen)
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))
 
 
-def _diagnosed(dataset: Dataset, question: Question) -> Diagnosis:
+def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Diagnosis:
+    """laws : which may be the right one, the question's own among them or not"""
     on_step, law = question.options.on_step, question.model
     on_step(Step(f"{law}: the records"))
     prepared = prepare(dataset, question)
     on_step(Step(f"{law}: noise and memory"))
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
+    cause = law_as_cause(found, [name for name in laws if name != law], question.options)
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
-    return conclude(dataset, question, prepared, found, stages)
+    return conclude(dataset, question, prepared, found, stages, cause)
 
 
 def _promising(laws: Comparison, several: bool) -> list[str]:

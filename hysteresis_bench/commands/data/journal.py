@@ -22,12 +22,13 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.laws.cause import Contender
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.origin import processor, versions
 
 FILE = "unfinished.jsonl"
-ANSWERS: Mapping[str, type] = {"Hypothesis": Hypothesis, "Law": Law}
+ANSWERS: Mapping[str, type] = {"Hypothesis": Hypothesis, "Law": Law, "Contender": Contender}
 
 
 @contextmanager

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +22,7 @@ class Candidate:
     p : of the nested-model test, not corrected;  advantage : standard errors by which it won on blocks left out
     share : of the mean square left over the noise without it, what it explains; NaN where nothing is left
     cv_rmse : NaN where it is not applicable, for the `reason`;  parameters : its own, in units
+    stand_in : it is in the final model, and stands in for the law there
     """
 
     effect: str
@@ -36,6 +37,7 @@ class Candidate:
     at_bound: tuple[str, ...] = ()
     tied_with: tuple[str, ...] = ()
     share: float = float("nan")
+    stand_in: bool = False
 
 
 @dataclass(frozen=True)
@@ -62,10 +64,12 @@ def step_of(at: Round) -> Step:
     )
 
 
-def candidates_of(found: Found, ties: Sequence[Tie]) -> tuple[Candidate, ...]:
-    """Adopted ones first, then by the error on blocks left out; what cannot be tried at the end."""
+def candidates_of(found: Found, ties: Sequence[Tie], stand_ins: Sequence[str]) -> tuple[Candidate, ...]:
+    """Adopted ones first, then what stands in for the law, then by the error on blocks left out; what cannot be tried
+    at the end."""
     rows = [row for name in found.selection.candidates if (row := _candidate(found, name, ties))]
-    rows.sort(key=lambda row: (not row.adopted, row.cv_rmse))
+    rows = [replace(row, adopted=False, stand_in=True) if row.effect in stand_ins else row for row in rows]
+    rows.sort(key=lambda row: (not row.adopted, not row.stand_in, row.cv_rmse))
     return (*rows, *(Candidate(name, False, reason) for name, reason in found.impossible.items()))
 
 

@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.findings.stages import Stage, Stages, stage_of
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie, tie
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
+from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
@@ -31,14 +32,18 @@ from hysteresis_bench.fit.settling import gap_after, not_closed
 from hysteresis_bench.signals import Dataset
 
 
-def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Found, stages: Stages) -> Diagnosis:
-    """dataset : as measured"""
+def conclude(
+    dataset: Dataset, question: Question, prepared: Prepared, found: Found, stages: Stages, cause: Cause | None
+) -> Diagnosis:
+    """dataset : as measured;  cause : the law that does clearly better"""
+    stand_ins = cause.stand_ins if cause else ()
     ties = tuple(
         tie(name, rival, found.best.apart(other))
         for name, rivals in found.rivals.items()
         for rival, other in rivals.items()
+        if name not in stand_ins
     )
-    candidates, after, evidence = candidates_of(found, ties), stages.after, found.evidence
+    candidates, after, evidence = candidates_of(found, ties, stand_ins), stages.after, found.evidence
     adopted, waterfall = stages.adopted, stages.waterfall
     left = remainder(after, evidence)
     if question.options.accept_terms and left.equation and left.equation.terms:
@@ -47,12 +52,19 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         adopted = (*adopted, registry.DESCRIPTION)
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
         left = remainder(after, evidence)
-    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units)
+    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, cause)
+    waterfall = tuple((f"{name} (stand-in)" if name in outcome.stand_ins else name, rmse) for name, rmse in waterfall)
     return Diagnosis(
         model_name=question.model,
-        verdict="unexplained-residual" if outcome.unexplained else "effect-found" if adopted else "no-effect-needed",
+        verdict="unexplained-residual"
+        if outcome.unexplained
+        else "effect-found"
+        if outcome.named
+        else "no-effect-needed",
         headline=headline(outcome),
-        effects=adopted,
+        effects=outcome.named,
+        stand_ins=outcome.stand_ins,
+        better_law=cause,
         offset=stages.offset,
         before=stages.before,
         after=after,
@@ -65,7 +77,7 @@ def conclude(dataset: Dataset, question: Question, prepared: Prepared, found: Fo
         advice=_advice(found, ties),
         memory=evidence.memory,
         equation=left.equation,
-        slow_noise=left.slow,
+        doubtful=outcome.doubted,
         model=_model(after, prepared, question),
         responses=_responses(prepared.dataset, stages.before, after),
         split={

@@ -37,7 +37,8 @@ DIAGNOSIS, MODEL, RESPONSES = "diagnosis.json", "model.json", "responses.csv"
 DRAWN = 3000
 """Samples of a record in responses.csv: as many as a figure can show."""
 
-ADOPTED, TIED, PARTIAL, NEEDLESS = "adopted", "tied", "too small a part", "not needed"
+ADOPTED, STAND_IN, TIED = "adopted", "stands in for the law", "tied"
+PARTIAL, NEEDLESS = "too small a part", "not needed"
 """What became of a candidate."""
 
 
@@ -101,6 +102,8 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "experiment": None,
         "unseen": None,
         "laws": None,
+        "stand_ins": [],
+        "better_law": None,
     }
     candidates = [
         {"judgement": _judgement(c["adopted"], c["tied_with"], c["p_value"], c["advantage"]), **c}
@@ -115,6 +118,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     noise_rms : of the noise;  floor : RMS from which anything is judged, a little above it
     doubtful : is so much left that the names may stand in for something else?
     described : those of the effects that describe what was left, and explain nothing
+    stand_ins : in the final model beside the effects, and not named: the better law needs none of them
     offset_of_both : the offset, where the system before has it as the one after has
     """
     offset = diagnosis.offset
@@ -124,6 +128,8 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "verdict": diagnosis.verdict,
         "headline": diagnosis.headline,
         "effects": list(diagnosis.effects),
+        "stand_ins": list(diagnosis.stand_ins),
+        "better_law": None if diagnosis.better_law is None else asdict(diagnosis.better_law),
         "described": [name for name in diagnosis.effects if name == DESCRIPTION],
         "offset": offset or None,
         "offset_of_both": offset if offset in diagnosis.before.names else None,
@@ -132,7 +138,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "noise_rms": diagnosis.noise.floor,
         "noise": {**asdict(diagnosis.noise), "words": diagnosis.noise.words},
         "floor": diagnosis.floor,
-        "doubtful": diagnosis.after.fitted.rmse > WRONG * diagnosis.floor and not diagnosis.slow_noise,
+        "doubtful": diagnosis.doubtful,
         "residual": {"before": _tests(diagnosis.before.tests), "after": _tests(diagnosis.after.tests)},
         "waterfall": [{"system": label, "rmse": rmse} for label, rmse in diagnosis.waterfall],
         "candidates": [_candidate(candidate) for candidate in diagnosis.candidates],
@@ -207,7 +213,9 @@ def _candidate(candidate: Candidate) -> dict[str, Any]:
         "applicable": candidate.applicable,
         "reason": candidate.reason or None,
         "adopted": candidate.adopted,
-        "judgement": _judgement(candidate.adopted, candidate.tied_with, candidate.p, candidate.advantage),
+        "judgement": STAND_IN
+        if candidate.stand_in
+        else _judgement(candidate.adopted, candidate.tied_with, candidate.p, candidate.advantage),
         "rmse": candidate.rmse,
         "cv_rmse": candidate.cv_rmse,
         "p_value": candidate.p,

@@ -16,6 +16,7 @@ from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.laws.comparison import Comparison
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.fit.model_file import FittedModel
@@ -28,12 +29,14 @@ class Diagnosis:
     """What was found.
 
     headline : the verdict as a sentence
-    effects : adopted, the largest first;  waterfall : label and RMSE on the fitted records, from the bare model
-    to the noise;  responses : record, role, time, input, output, before, after over the scored samples
+    better_law : a law that does clearly better than the one that was asked about
+    stand_ins : adopted, and in the final model, but not needed around the better law
+    effects : adopted and named, the largest first;  waterfall : label and RMSE on the fitted records, from the bare
+    model to the noise;  responses : record, role, time, input, output, before, after over the scored samples
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
-    slow_noise : what is left is noise that changes slowly
+    doubtful : so much is left that the names may stand in for something else
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
     model : ready to predict and to be written
     """
@@ -61,7 +64,9 @@ class Diagnosis:
     units: Mapping[str, str]
     given_up: Fallback | None
     unseen: float
-    slow_noise: bool = False
+    stand_ins: tuple[str, ...] = ()
+    better_law: Cause | None = None
+    doubtful: bool = False
     laws: Comparison | None = None
 
     def _repr_html_(self) -> str:

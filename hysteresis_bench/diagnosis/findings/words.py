@@ -11,6 +11,7 @@ from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.identifiability.combinations import listed
@@ -21,6 +22,7 @@ class Outcome:
     """What is to be told: both ends, what was adopted on the way, and whether something remains.
 
     left : in the residual;  units : of the output, as the records have it
+    model : the law that was asked about;  cause : the law that does clearly better
     """
 
     before: Stage
@@ -30,6 +32,8 @@ class Outcome:
     ties: Sequence[Tie]
     left: Remainder
     units: Mapping[str, str]
+    model: str
+    cause: Cause | None
 
     @property
     def evidence(self) -> Evidence:
@@ -42,13 +46,24 @@ class Outcome:
         return before is None or after is None or after.rmse <= before.rmse
 
     @property
+    def stand_ins(self) -> tuple[str, ...]:
+        """Of what was adopted, what only stands in for the law; an offset for all records is none of the law's."""
+        spare = {*self.cause.stand_ins, registry.COMMON_OFFSET} if self.cause else set()
+        return tuple(name for name in self.adopted if name in spare)
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """Of what was adopted, what is claimed."""
+        return tuple(name for name in self.adopted if name not in self.stand_ins)
+
+    @property
     def unexplained(self) -> bool:
-        return self.left.matters or not self.found.follows or not self.carries_over
+        return self.left.matters or not self.found.follows or not self.carries_over or self.cause is not None
 
     @property
     def doubted(self) -> bool:
         """Is so much left that the names may stand in for what is wrong with the law?"""
-        return self.after.fitted.rmse > WRONG * self.evidence.floor and not self.left.slow
+        return self.after.fitted.rmse > WRONG * self.evidence.floor and not self.left.slow and self.cause is None
 
 
 def headline(outcome: Outcome) -> str:
@@ -60,20 +75,35 @@ def headline(outcome: Outcome) -> str:
     where = "on what was held out" if after.held_out else "on what was fitted"
     if not outcome.found.follows:
         return "The output does not follow the input: the model explains less than half of it, and no effect is named."
-    effects = [name for name in outcome.adopted if name != registry.DESCRIPTION]
+    effects = [name for name in outcome.named if name != registry.DESCRIPTION]
+    moves = "falls" if last.rmse < first.rmse else "does NOT fall, it goes"
+    moved = f"{where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
-        moves = "falls" if last.rmse < first.rmse else "does NOT fall, it goes"
-        lacks = "may lack" if outcome.doubted else "lacks"
-        said = f"The model {lacks} {named}: {where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
+        said = f"The model {'may lack' if outcome.doubted else 'lacks'} {named}: {moved}"
+    elif outcome.stand_ins:
+        said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
+    elif outcome.cause:
+        said = f"No effect is named, as the law itself is the cause: {where} the RMSE is {last.rmse:.3g}{unit}"
     else:
         said = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
     said = f"{said}; the noise is {outcome.evidence.noise.floor:.3g}."
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
-    if outcome.unexplained:
+    if outcome.cause:
+        said += f" {_of_the_law(outcome, outcome.cause)}"
+    elif outcome.unexplained:
         said += " Something is left that no effect explains."
     return said
+
+
+def _of_the_law(outcome: Outcome, cause: Cause) -> str:
+    """What the better law does, and what is then no longer needed."""
+    better = f"{cause.model} with {listed(cause.effects)}" if cause.effects else f"{cause.model} alone"
+    own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
+    left = f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
+    stand_ins = f" {listed(outcome.stand_ins)} may stand in for the law." if outcome.stand_ins else ""
+    return f"{left} {cause.own:.3g}.{stand_ins}"
 
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
@@ -103,6 +133,8 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             f"The final system still leaves {after.fitted.rmse / floor:.2g} times the noise: the model's own law does "
             "not follow these data, and what is named may stand in for that."
         )
+    if outcome.cause:
+        said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
     if outcome.left.slow:
         said.append(
             f"What is left is {after.fitted.rmse / floor:.2g} times the noise from sample to sample and is correlated, "

@@ -24,6 +24,8 @@ WORDS = {
     "reduced": "one effect less",
     "refitted": "other starts",
     "bare": "the bare model",
+    "alone": "other laws",
+    "with_adopted": "other laws with the same effects",
 }
 
 

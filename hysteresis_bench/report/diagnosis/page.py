@@ -74,11 +74,15 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
 def _title(found: Mapping[str, Any]) -> str:
     model = found["model"]
     unexplained = found["verdict"] == "unexplained-residual"
+    better = found["better_law"]
     if effects := [name for name in found["effects"] if name not in found["described"]]:
-        more = ", and something without a name" if unexplained else ""
+        more = f", and its law is not the best: {better['model']} is" if better else ""
+        more = more or (", and something without a name" if unexplained else "")
         tied = {tie["effect"] for tie in found["ties"]}
         names = [f"{name} or its like" if name in tied else name for name in effects]
         return f"{model} {'may lack' if found['doubtful'] else 'lacks'} {listed(names)}{more}"
+    if better:
+        return f"{model} is not the law here: {better['model']} does better"
     return f"{model} leaves something that no effect explains" if unexplained else f"{model} lacks nothing known here"
 
 
@@ -121,7 +125,8 @@ def _considered(kept: KeptDiagnosis) -> Section:
     impossible = [f"{c['effect']}: {c['reason']}." for c in found["candidates"] if not c["applicable"]]
     if impossible:
         blocks.append(Details("Effects that these data or this model cannot show", [Bullets(impossible)]))
-    if added := added_table(kept.model, [*found["effects"], *([found["offset"]] if found["offset"] else [])]):
+    around = [*found["effects"], *found["stand_ins"], *([found["offset"]] if found["offset"] else [])]
+    if added := added_table(kept.model, around):
         blocks.append(added)
     return Section("candidates", "What was considered", blocks)
 

@@ -1,0 +1,63 @@
+"""Where the law is wrong, another law is told as the cause, and what stood in for it is not named."""
+
+import json
+
+import pytest
+
+from hysteresis_bench import measure
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis, write_diagnosis
+from hysteresis_bench.diagnosis.laws.cause import law_as_cause
+from hysteresis_bench.diagnosis.preparation import prepare
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
+from hysteresis_bench.diagnosis.search.search import search
+from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
+
+RECORDS = ("slow", "fast", "nested", "mixed")
+OPTIONS = DiagnosisOptions(jobs=1)
+
+
+def data_of(law, *effects, imperfect=""):
+    settings = {"model": law, "effects": effects, "noise": 0.004, "imperfect": imperfect}
+    return measure("hidden-effects", *RECORDS, settings=settings, seed=3).split(RECORDS[-1:])
+
+
+def found_by(dataset, asked):
+    question = Question(asked, options=OPTIONS)
+    prepared = prepare(dataset, question)
+    return search(prepared, gather(prepared.views), question)
+
+
+def test_a_wrong_law_is_told_and_nothing_is_named_in_its_place(tmp_path):
+    found = diagnose(data_of("ferroelectric"), Question("bouc-wen", options=OPTIONS))
+    assert found.effects == ()
+    assert found.stand_ins
+    assert found.better_law.model == "ferroelectric"
+    assert found.better_law.unseen < 1.1 * found.floor
+    assert found.verdict == "unexplained-residual"
+    assert "No effect is named, as the law itself is the cause" in found.headline
+    write_diagnosis(tmp_path, found)
+    kept = read_diagnosis(tmp_path).diagnosis
+    assert kept["effects"] == []
+    assert kept["better_law"]["model"] == "ferroelectric"
+    assert not any(row["adopted"] for row in kept["candidates"])
+    around = json.loads((tmp_path / "model.json").read_text(encoding="utf-8"))["effects"]
+    assert {*found.stand_ins} <= {one["effect"] for one in around}  # they help to predict, and stay
+    page = write_diagnosis_page(tmp_path).read_text(encoding="utf-8")
+    assert "bouc-wen is not the law here: ferroelectric does better" in page
+    assert "stands in for the law" in page
+
+
+def test_an_effect_that_the_better_law_needs_too_stays_named():
+    found = found_by(data_of("ferroelectric", "creep"), "bouc-wen")
+    cause = law_as_cause(found, ("ferroelectric", "dahl"), OPTIONS)
+    assert cause.model == "ferroelectric"
+    assert cause.effects == ("creep",)
+    assert "creep" not in cause.stand_ins
+
+
+@pytest.mark.parametrize(("effects", "imperfect"), [((), ""), (("input-lag",), ""), ((), "coloured")])
+def test_a_right_law_is_not_blamed(effects, imperfect):
+    found = found_by(data_of("bouc-wen", *effects, imperfect=imperfect), "bouc-wen")
+    assert law_as_cause(found, ("preisach", "prandtl-ishlinskii-modified", "ferroelectric"), OPTIONS) is None
