@@ -9,14 +9,17 @@ from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.findings.conclude import conclude
+from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.laws.cause import law_as_cause
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.search import search
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
@@ -54,10 +57,26 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     on_step(Step(f"{law}: noise and memory"))
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
-    cause = law_as_cause(found, [name for name in laws if name != law], question.options)
+    on_step(Step(f"{law}: the records' beginnings"))
+    if (spare := only_in_beginnings(found)) is not None:
+        prepared = prepared.without(without_beginnings, _in_mid_loop(spare))
+        evidence = gather(prepared.views)
+        found = search(prepared, evidence, question)
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
-    return conclude(dataset, question, prepared, found, stages, cause)
+    left = remainder(stages.after, found.evidence)
+    others = [] if left.slow else [name for name in laws if name != law]
+    cause = law_as_cause(found, others, question.options)
+    return conclude(dataset, question, prepared, found, stages, left, cause)
+
+
+def _in_mid_loop(spare: Sequence[str]) -> str:
+    needed = f"{listed(spare)} had been selected and is needed there only, to make up for that" if spare else ""
+    return (
+        "The records seem to begin in mid-loop, where a model begins at rest: until the input has passed both ends of "
+        f"its range they are off, and not later{f'; {needed}' if needed else ''}. Up to there they are simulated and "
+        "not scored; `predict` will be off there as well."
+    )
 
 
 def _promising(laws: Comparison, several: bool) -> list[str]:

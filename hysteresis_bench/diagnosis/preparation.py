@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,6 +32,7 @@ class Prepared:
 
     dataset : as the model sees it, with its split;  how : the split was chosen, in words
     views : of the fitted records;  passes : how often a closed loop is repeated before it is scored, 0 where it is not
+    notes : what a user must know of it
     """
 
     model: Model
@@ -39,6 +40,12 @@ class Prepared:
     how: str
     views: tuple[View, ...]
     passes: int
+    notes: tuple[str, ...] = ()
+
+    def without(self, records: Callable[[Sequence[Record]], tuple[Record, ...]], note: str) -> Prepared:
+        """With less that is scored.  records : from all of them to what they become"""
+        dataset = replace(self.dataset, records=records(self.dataset.records))
+        return replace(self, dataset=dataset, views=views_of(dataset.fitted), notes=(*self.notes, note))
 
 
 def prepare(dataset: Dataset, question: Question) -> Prepared:
@@ -82,9 +89,9 @@ def with_held_out(dataset: Dataset) -> tuple[Dataset, str]:
     return Dataset((head, tail), (tail.name,), dataset.hidden), words
 
 
-def thinned(views: Sequence[View]) -> tuple[Record, ...]:
+def thinned(views: Sequence[View], samples: int = SEARCHED) -> tuple[Record, ...]:
     """Every so manieth sample and all turning points, where there are more samples than a search needs."""
-    stride = sum(view.y.size for view in views) // SEARCHED
+    stride = sum(view.y.size for view in views) // samples
     if stride < 2:
         return tuple(view.record for view in views)
     return tuple(_thinned(view, stride) for view in views)

@@ -46,3 +46,20 @@ def test_noise_on_the_measured_input_is_no_dead_band_and_a_wider_one_is():
     assert row.p == 1.0
     with_band, _ = found_in("noisy-input", ("backlash",))
     assert with_band.effects == ("backlash",)
+
+
+@pytest.mark.parametrize("effects", [(), ("creep",)])
+def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(effects):
+    settings = {"model": "jiles-atherton", "imperfect": "in-mid-loop", "effects": effects, "noise": 0.004}
+    data = measure("hidden-effects", *RECORDS, settings=settings, seed=3).split(RECORDS[-1:])
+    found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
+    assert found.effects == effects
+    assert found.verdict == ("effect-found" if effects else "no-effect-needed")
+    assert any("begin in mid-loop" in one for one in found.warnings)
+    assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
+
+
+def test_an_effect_that_acts_all_along_is_not_laid_on_the_beginnings():
+    found, _ = found_in("", ("creep",))
+    assert found.effects == ("creep",)
+    assert not any("begin in mid-loop" in one for one in found.warnings)

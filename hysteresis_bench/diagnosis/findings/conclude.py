@@ -13,7 +13,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
 from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
 from hysteresis_bench.diagnosis.findings.description import accepted
-from hysteresis_bench.diagnosis.findings.remainder import remainder
+from hysteresis_bench.diagnosis.findings.remainder import Remainder, remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import Stage, Stages, stage_of
 from hysteresis_bench.diagnosis.findings.terms import Equation
@@ -33,9 +33,15 @@ from hysteresis_bench.signals import Dataset
 
 
 def conclude(
-    dataset: Dataset, question: Question, prepared: Prepared, found: Found, stages: Stages, cause: Cause | None
+    dataset: Dataset,
+    question: Question,
+    prepared: Prepared,
+    found: Found,
+    stages: Stages,
+    left: Remainder,
+    cause: Cause | None,
 ) -> Diagnosis:
-    """dataset : as measured;  cause : the law that does clearly better"""
+    """dataset : as measured;  left : in the residual of the last stage;  cause : the law that does clearly better"""
     stand_ins = cause.stand_ins if cause else ()
     ties = tuple(
         tie(name, rival, found.best.apart(other))
@@ -45,7 +51,6 @@ def conclude(
     )
     candidates, after, evidence = candidates_of(found, ties, stand_ins), stages.after, found.evidence
     adopted, waterfall = stages.adopted, stages.waterfall
-    left = remainder(after, evidence)
     if question.options.accept_terms and left.equation and left.equation.terms:
         candidates = (description_row(left.equation, after), *candidates)
         after = _described(found, left.equation, prepared)
@@ -85,7 +90,7 @@ def conclude(
             "held_out": [record.name for record in prepared.dataset.held_out],
             "how": prepared.how,
         },
-        warnings=(*dataset.notes, *warnings(outcome), *_open(after, prepared)),
+        warnings=(*dataset.notes, *prepared.notes, *warnings(outcome), *_open(after, prepared)),
         units=dataset.units,
         given_up=found.given_up,
         unseen=unseen_rmse(found.thin, found.final),

@@ -24,6 +24,7 @@ WORDS = {
     "reduced": "one effect less",
     "refitted": "other starts",
     "bare": "the bare model",
+    "screened": "other laws on some of the samples",
     "alone": "other laws",
     "with_adopted": "other laws with the same effects",
 }

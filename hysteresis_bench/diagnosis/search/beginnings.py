@@ -1,0 +1,71 @@
+"""Do records begin in mid-loop? A model begins every record at rest, which a device on a bench seldom does.
+
+What it remembers from before a record is in its output until the input has passed the extremes that came before. An
+effect that makes up for that, such as a dead band, is needed there and nowhere else: once the beginnings no longer
+count, the system without it leaves no more than the noise. Then the beginnings become history, simulated and not
+scored, and the search begins anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, SHARE
+from hysteresis_bench.signals import Record
+
+NEAR = 0.05
+"""Share of its range by which the input may miss its extremes."""
+
+
+def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
+    """Names of the adopted effects that the records need in their beginnings only; empty where nothing is named but
+    only the beginnings are off; None where the beginnings make no difference."""
+    selection, thin, best = found.selection, found.thin, found.best
+    records = without_beginnings(thin.stack.records)
+    if not found.follows or all(now is before for now, before in zip(records, thin.stack.records, strict=True)):
+        return None
+    later = Fitter(replace(thin.stack, records=records), thin.seed)
+
+    def gone(rmse: float, with_beginnings: float) -> bool:
+        """Is what was clearly more than the noise no more than it now?"""
+        excess = [x**2 - selection.floor**2 for x in (rmse, with_beginnings)]
+        clear = with_beginnings > MISFIT * selection.floor
+        return clear and rmse <= MATTERS * selection.floor and excess[0] <= SHARE * excess[1]
+
+    left, current, spare = list(found.without), best, list[str]()
+    while left:
+        smaller = {name: later.reduced(current, name) for name in left}
+        least = min(left, key=lambda name: smaller[name].rmse)
+        if not gone(smaller[least].rmse, found.without[least].rmse):
+            break
+        left.remove(least)
+        spare.append(least)
+        current = smaller[least]
+    if spare:
+        return tuple(spare)
+    errors = later.errors(best.names, later.polished(best))
+    return () if gone(float(np.sqrt(np.mean(errors**2))), best.rmse) else None
+
+
+def without_beginnings(records: Sequence[Record]) -> tuple[Record, ...]:
+    """What comes before the input has passed both ends of its range becomes history, at most half of what is scored.
+
+    A record is returned as it is where its history has passed them."""
+    borders = [_border(record) for record in records]
+    return tuple(
+        replace(record, history=border) if border > record.history else record
+        for record, border in zip(records, borders, strict=True)
+    )
+
+
+def _border(record: Record) -> int:
+    u = record.input
+    low, high = np.min(u), np.max(u)
+    margin = NEAR * (high - low)
+    passed = max(int(np.argmax(u >= high - margin)), int(np.argmax(u <= low + margin)))
+    return min(passed, record.history + record.measured.size // 2)
