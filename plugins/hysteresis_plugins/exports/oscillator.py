@@ -17,7 +17,7 @@ from hysteresis_bench.contracts import Part
 from hysteresis_bench.kernels.bouc_wen_generalized_step import strained
 from hysteresis_bench.kernels.bouc_wen_step import moved
 from hysteresis_bench.kernels.dahl import slipped
-from hysteresis_bench.kernels.oscillator import CLOSE, MOST
+from hysteresis_bench.kernels.oscillator_step import CLOSE, MOST
 from hysteresis_bench.kernels.play import played
 from hysteresis_plugins.models._plays import named, thresholds
 from hysteresis_plugins.models.oscillator import LAWS
