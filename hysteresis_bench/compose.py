@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import namedtuple
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Any
 
@@ -88,11 +88,11 @@ class System:
 
     @cached_property
     def _namedtuples(self) -> list[Any]:
-        return [namedtuple("Values", [p.name for p in part.parameters]) for _, part in self._stack]
+        return [_values(*(p.name for p in part.parameters)) for _, part in self._stack]
 
     @cached_property
     def _model_values(self) -> Any:
-        return namedtuple("Values", [*(p.name for p in self.model.parameters), *self._inside])
+        return _values(*(p.name for p in self.model.parameters), *self._inside)
 
     @cached_property
     def _rows(self) -> list[slice]:
@@ -142,6 +142,12 @@ class System:
             for parameter in group
         ]
         return tuple(parameter for parameter in named if parameter.name not in self.fixed)
+
+
+@lru_cache
+def _values(*names: str) -> Any:
+    """Made once: a class takes longer than a short simulation."""
+    return namedtuple("Values", names)
 
 
 def _around(effect: Effect, inner: Callable[[Signal], Array], p: Any) -> Callable[[Signal], Array]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from types import MappingProxyType
 from typing import Any
 
@@ -74,7 +75,7 @@ class Record:
     def timed(self) -> bool:
         return self.units.get("time") != INDEX
 
-    @property
+    @cached_property
     def signal(self) -> Signal:
         return Signal(self.time, np.ascontiguousarray(self.input[:, None]), self.timed, self.columns)
 

@@ -200,17 +200,15 @@ class Objective:
     def _check(self, points: Array) -> None:
         if points.ndim != 2 or points.shape[0] != self.dimension:
             raise ValueError(f"points are (dimension, swarm) = ({self.dimension}, n), not {points.shape}")
-        if not np.all((points >= 0.0) & (points <= 1.0)):
+        if not (points.size == 0 or (points.min() >= 0.0 and points.max() <= 1.0)):
             row, column = np.argwhere(~((points >= 0.0) & (points <= 1.0)))[0]
             raise OutsideBox(f"{self._problem.space.names[row]} = {points[row, column]:.6g} lies outside the unit box")
 
     def _record(self, losses: Array, points: Array) -> None:
-        running = np.minimum.accumulate(np.concatenate([[self.best], losses]))
-        for index in np.nonzero(running[1:] < running[:-1])[0]:
-            self._improvements.append(
-                (self.evaluations + int(index) + 1, float(losses[index]), points[:, index].copy())
-            )
-        self.best = float(running[-1])
+        while (better := np.flatnonzero(losses < self.best)).size:
+            index = int(better[0])
+            self.best = float(losses[index])
+            self._improvements.append((self.evaluations + index + 1, self.best, points[:, index].copy()))
         self.evaluations += losses.size
         if self._on_evaluated:
             self._on_evaluated(self.evaluations)

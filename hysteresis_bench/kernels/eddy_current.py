@@ -22,8 +22,7 @@ an input that is linear between its samples [3]. It goes from 1/2, second order,
 1 where it is shorter, so that nothing rings. The left side grows with z_i along the one branch of the law that leaves
 z_j: one root, always bracketed, found without a derivative as in [4], from the slope of the step before on.
 
-Particles are solved for in groups of LANES side by side. A law is tried for a whole group, whose particles that are
-done try their answer again; groups that are done wait for the others. So no particle knows of its neighbours.
+Particles are solved for in groups of `lanes`; groups that are done wait for the others.
 """
 
 from __future__ import annotations
@@ -36,6 +35,7 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.elementary import exponential
+from hysteresis_bench.kernels.lanes import LANES, OPEN, OUT, SOLVER, TRIAL, Y, Z
 
 TOLERANCE = 1e-10
 """The equation is solved to this share of its value before the step, or the trial to this share of its bracket."""
@@ -44,17 +44,10 @@ USUAL = 8
 MOST = 100
 """Trials of one step; half a dozen are usual."""
 
-LANES = 8
-"""Particles that are solved for side by side; a swarm is padded to a multiple with copies of its last particle."""
-GROUPS = 8
-"""Groups that take turns, so that one computes while another waits for its own results."""
-
-# Rows of a group's work: inputs, what acts, the output and its slope before the step, the trial and its output;
-# the equation; the bracket, the distance of the trial from Z, the width that ends the search.
-COEFFICIENT, U, NEW, Z, Y, SLOPE, TRIAL, OUT, RATE, THETA, BEFORE, ALONG = (row * LANES for row in range(12))
-LOW, BELOW, HIGH, ABOVE, WAY, NARROW, OPEN = (row * LANES for row in range(12, 19))
-ROWS = 19
-"""A law's own rows follow."""
+# Rows of a group's work: inputs, the output's slope before the step; the equation; the bracket, the distance of the
+# trial from Z, the width that ends the search.
+COEFFICIENT, U, NEW, SLOPE, RATE, THETA, BEFORE, ALONG = ((SOLVER + row) * LANES for row in range(8))
+LOW, BELOW, HIGH, ABOVE, WAY, NARROW = ((SOLVER + row) * LANES for row in range(8, 14))
 
 
 @njit(error_model="numpy", inline="always")
@@ -183,11 +176,8 @@ def simulated(
 ) -> None:
     """All samples of the particles from `first` on that `work` has room for, into their columns of y.
 
-    law(of, s) : s[OUT:] of a group where the acting input has moved on to s[TRIAL:]; a trial changes no state; a lane
-        that is not OPEN may be left as it is
-    keep(of, s) : makes what the last trial found the state
-    of : whatever else the law wants
-    work : float64[groups, (ROWS + the law's) LANES]; NEW is the first input, Z and Y the state there
+    law(of, s), keep(of, s) : as in `lanes`;  of : whatever else the law wants
+    work : float64[groups, rows LANES]; NEW is the first input, Z and Y the state there
     """
     groups = work.shape[0]
     left = np.zeros(groups, dtype=np.int64)

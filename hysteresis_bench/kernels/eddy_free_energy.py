@@ -8,16 +8,17 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.eddy_current import COEFFICIENT, LANES, NEW, OPEN, OUT, ROWS, TRIAL, Y, Z, simulated
+from hysteresis_bench.kernels.eddy_current import COEFFICIENT, NEW, simulated
 from hysteresis_bench.kernels.free_energy import LANES as NODES
 from hysteresis_bench.kernels.free_energy import error_function, moving, radii
+from hysteresis_bench.kernels.lanes import LANES, LAW, OPEN, OUT, TRIAL, Y, Z
 from hysteresis_bench.kernels.play import played
 
 # Rows of the nodes' work array: the plays' P and their share of the magnetization, each with what the last trial found.
 RADIUS, WEIGHT, STATE, TERM, NEXT_STATE, NEXT_TERM = range(6)
 # Rows of a group of particles; MOVED: how many nodes the last trial moved.
-SCALE, SLOPE, AMPLITUDE, MOVED = ((ROWS + row) * LANES for row in range(4))
-WIDTH = (ROWS + 4) * LANES
+SCALE, SLOPE, AMPLITUDE, MOVED = ((LAW + row) * LANES for row in range(4))
+WIDTH = (LAW + 4) * LANES
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})

@@ -8,14 +8,15 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.eddy_current import COEFFICIENT, GROUPS, LANES, NEW, OUT, ROWS, TRIAL, Y, Z, simulated
+from hysteresis_bench.kernels.eddy_current import COEFFICIENT, NEW, simulated
 from hysteresis_bench.kernels.jiles_atherton import MU0, advanced, extrapolated, first_anhysteretic
+from hysteresis_bench.kernels.lanes import GROUPS, LANES, LAW, OUT, TRIAL, Y, Z
 
 # Rows of a group: parameters and state as in `jiles_atherton`, and, in the same order, what the last trial found.
-ALPHA, INVERSE_A, PULL, K, M_S, C = ((ROWS + row) * LANES for row in range(6))
-LAST, MI, D, M, RISE_D, RISE_M = ((ROWS + row) * LANES for row in range(6, 12))
+ALPHA, INVERSE_A, PULL, K, M_S, C = ((LAW + row) * LANES for row in range(6))
+LAST, MI, D, M, RISE_D, RISE_M = ((LAW + row) * LANES for row in range(6, 12))
 FOUND = 6 * LANES
-WIDTH = (ROWS + 18) * LANES
+WIDTH = (LAW + 18) * LANES
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})

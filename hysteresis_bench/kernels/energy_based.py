@@ -28,20 +28,20 @@ STEEPEST = 0.95
 """Slope of the right side in m beyond which a step is no longer lengthened."""
 
 
-@njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _mean(h: float, a: float, cells: Array, pinning: Array, shares: Array) -> tuple[float, float]:
+@njit(cache=True, error_model="numpy", fastmath={"contract", "reassoc"})
+def _mean(h: float, inverse_a: float, cells: Array, pinning: Array, shares: Array) -> tuple[float, float]:
     """m, and its slope in h, for an acting field h; cells : where the plays are."""
     m = 0.0
     slope = 0.0
     for k in range(shares.size):
         place = played(h, pinning[k], cells[k])
-        x = place / a
+        x = place * inverse_a
         ratio = langevin_ratio(x)
         L = x * ratio
         m += shares[k] * L
-        if place != cells[k]:
-            slope += shares[k] * (1.0 - L * L - 2.0 * ratio) / a
-    return m, slope
+        rise = shares[k] * (1.0 - L * L - 2.0 * ratio)
+        slope += rise if place != cells[k] else 0.0
+    return m, slope * inverse_a
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -63,13 +63,13 @@ def energy_based(u: Array, a: Array, coupling: Array, pinning: Array, shares: Ar
         own_pinning, own_shares = pinning[:, j].copy(), shares[:, j].copy()
         cells = np.zeros(count)
         free = np.zeros(count)
-        field = 3.0 * a[j] * coupling[j]
+        field, inverse_a = 3.0 * a[j] * coupling[j], 1.0 / a[j]
         m = 0.0
         for i in range(samples):
             now = u[i, column]
             widths = own_pinning if i > 0 else free
             for _ in range(MOST_STEPS):
-                found, slope = _mean(now + field * m, a[j], cells, widths, own_shares)
+                found, slope = _mean(now + field * m, inverse_a, cells, widths, own_shares)
                 change = (found - m) / (1.0 - min(field * slope, STEEPEST))
                 m = min(max(m + change, -1.0), 1.0)
                 if abs(change) <= CLOSE:

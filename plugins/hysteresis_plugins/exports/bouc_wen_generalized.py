@@ -7,7 +7,7 @@ from typing import Any
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_bench.kernels.bouc_wen_generalized import strained
+from hysteresis_bench.kernels.bouc_wen_generalized_step import strained
 
 
 def law(s: Array, p: Array, t: float, u: float) -> float:

@@ -14,10 +14,10 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_bench.kernels.bouc_wen_generalized import strained
+from hysteresis_bench.kernels.bouc_wen_generalized_step import strained
 from hysteresis_bench.kernels.bouc_wen_step import moved
 from hysteresis_bench.kernels.dahl import slipped
-from hysteresis_bench.kernels.oscillator import CLOSE, MOST
+from hysteresis_bench.kernels.oscillator_step import CLOSE, MOST
 from hysteresis_bench.kernels.play import played
 from hysteresis_plugins.models._plays import named, thresholds
 from hysteresis_plugins.models.oscillator import LAWS
@@ -72,18 +72,19 @@ def law(s: Array, p: Array, t: float, u: float) -> float:
         inertia = 4.0 * mass / (width * width) + 2.0 * damping / width
         pull = mass * (4.0 * s[3] / width + s[4]) + damping * s[3] + u
         old = s[2]
+        way = change = (pull - s[5]) / (inertia + max(s[6], 0.0))
         before = s[5]
-        change = (pull - before) / (inertia + max(s[6], 0.0))
         for _ in range(MOST):
             z = spring(s, p, old, old + change)
-            if change != 0.0:
-                s[6] = (z - before) / change
-            correction = (inertia * change + z - pull) / (inertia + max(s[6], 0.0))
-            change -= correction
-            if abs(correction) <= CLOSE * s[7]:
+            if way != 0.0:
+                s[6] = (z - before) / way
+            way = (pull - z - inertia * change) / (inertia + max(s[6], 0.0))
+            change += way
+            before = z
+            if abs(way) <= CLOSE * s[7]:
                 break
         s[2] = old + change
-        s[5] = spring(s, p, old, s[2])
+        s[5] = before + s[6] * way
         faster = 2.0 * (s[2] - old) / width - s[3]
         s[4] = 2.0 * (faster - s[3]) / width - s[4]
         s[3] = faster

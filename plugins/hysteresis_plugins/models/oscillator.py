@@ -89,9 +89,8 @@ class Oscillator(Model):
         time, force = _refined(signal.time, signal.input, self.substeps)
         driven = (force, np.diff(time), self.substeps, p.mass, p.damping)
         if self.law == "bouc-wen":
-            ones = np.ones_like(p.mass)
-            last = LAWS[self.law].n * ones, RUNAWAY * np.max(np.abs(force)) * ones
-            return kernels.bouc_wen_oscillator(*driven, np.stack([p.alpha, p.beta, p.gamma, p.d, *last]))
+            bound = np.full_like(p.mass, RUNAWAY * np.max(np.abs(force)))
+            return kernels.bouc_wen_oscillator(*driven, np.stack([p.alpha, p.beta, p.gamma, p.d, bound]))
         if self.law == "bouc-wen-generalized":
             return kernels.generalized_oscillator(*driven, np.stack(p[2:]))
         if self.law == "dahl":
