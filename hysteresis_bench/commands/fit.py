@@ -55,9 +55,13 @@ def fit(
     force: bool,
     out: Path | None,
 ) -> None:
-    """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page."""
+    """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page.
+
+    A run that was stopped goes on after its last finished search when it is called again.
+    """
     from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
+    from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
     from hysteresis_bench.report.fit.page import FILE
@@ -75,11 +79,12 @@ def fit(
         seed=seed,
         **prepared,
     )
-    kept = f"nothing was written to {folder}"
-    with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
-        options = replace(options, on_step=on_step)
-        fitted = fit_model(dataset, model, effects, **asked, options=options)
-    page = write_fit(folder, fitted, data)
+    with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
+        say_notes(plain_console(aside=True), kept.notes)
+        with told_when_stopped("fit", kept.words), steps_told("fit") as on_step:
+            options = replace(options, on_step=on_step, kept=kept)
+            fitted = fit_model(dataset, model, effects, **asked, options=options)
+        page = write_fit(folder, fitted, data)
     if as_json:
         tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}
         said = {"agreement": fitted.agreement, "warnings": fitted.warnings, "notes": fitted.notes}
