@@ -236,9 +236,10 @@ def inverted(model, folder, compiler):
     return called(library.back, TIME, known)
 
 
-@pytest.mark.parametrize(
-    "effects", [("bias",), ("drift",), ("creep",), ("creep", "drift", "periodic-disturbance", "record-offset")], ids=str
-)
+CHAINS = (("bias",), ("drift",), ("creep",), ("creep", "drift", "periodic-disturbance", "record-offset"))
+
+
+@pytest.mark.parametrize("effects", CHAINS, ids=str)
 def test_the_inverse_of_c_and_python(effects, tmp_path, compiler):
     model = fitted("bouc-wen", effects, Preparation(input_offset=0.5, flip=True))
     assert "leaves out" not in exported(model, "c")
