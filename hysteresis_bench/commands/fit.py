@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
 @data_options
-@click.option("--model", required=True, help="A registered model; see `list models`.")
+@click.option("--model", default="", help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
 @model_options
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
@@ -63,9 +63,16 @@ def fit(
     from hysteresis_bench import fit as fit_model
     from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.errors import UserError
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
     from hysteresis_bench.report.fit.page import FILE
 
+    if not model:
+        raise UserError(
+            "fit",
+            "name a law with --model; `list models` shows them, `compare` ranks them on your data, and `diagnose` "
+            "finds one without --model.",
+        )
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
