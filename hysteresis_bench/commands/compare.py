@@ -45,9 +45,15 @@ def compare(
     force: bool,
     out: Path | None,
 ) -> None:
-    """Fit every law to DATA ... and rank them by what they did not see, beside a polynomial without memory."""
+    """Fit every law to DATA ... and rank them by what they did not see, beside a polynomial without memory.
+
+    A run that was stopped goes on where it was when it is called again.
+    """
+    from dataclasses import replace
+
     from hysteresis_bench import compare as compare_laws
     from hysteresis_bench import load
+    from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.laws.page import FILE, FILES, print_comparison, write_comparison
@@ -58,11 +64,13 @@ def compare(
     if not as_json:
         say_understood(console, dataset)
     say_notes(console, dataset.notes)
-    kept, anew = f"nothing was written to {folder}", "Run it again to begin anew."
-    with told_when_stopped("compare", lambda: kept, anew), steps_told("compare") as on_step:
-        options = DiagnosisOptions(seed, jobs, **prepared, on_step=on_step)
-        found = compare_laws(dataset, models, effects, options=options)
-    page = write_comparison(folder, found, data)
+    options = DiagnosisOptions(seed, None, **prepared)
+    with journal(folder, (dataset.records, held_out, models, effects, options)) as kept:
+        say_notes(plain_console(aside=True), kept.notes)
+        with told_when_stopped("compare", kept.words), steps_told("compare") as on_step:
+            options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
+            found = compare_laws(dataset, models, effects, options=options)
+        page = write_comparison(folder, found, data)
     if as_json:
         say_json({**found.as_dict(), "notes": found.notes, "page": page})
     else:

@@ -11,7 +11,7 @@ import click
 from hysteresis_bench.commands.outputs import check_file, check_folder, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
-from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -69,8 +69,6 @@ def control(
 ) -> None:
     """Use a fitted MODEL.json: the input that follows a trajectory (--reference), the error to expect over amplitude
     and frequency (--sweep), controllers on a rig (--rig)."""
-    from rich.console import Console
-
     from hysteresis_bench import control as control_on_rig
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.errors import UserError
@@ -83,22 +81,20 @@ def control(
             raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
         check_file(plot, [model, *([reference] if reference else [])], force)
         check_figure(plot)
-    if as_json and (bool(rig) == bool(sweep) or reference is not None):
-        raise UserError("control", "--json tells the comparison on a --rig, or a --sweep, and one of them alone.")
+    if as_json and sum(map(bool, (rig, reference, sweep))) > 1:
+        raise UserError("control", "--json tells a --reference, a --sweep or a --rig, and one of them alone.")
     if rig is None and reference is None and not sweep:
         raise UserError(
             "control",
             "give --rig NAME to compare controllers, --reference CSV for a feed-forward, or --sweep F,F,... for the "
             "error to expect.",
         )
-    fitted, console = read_model(model), Console(soft_wrap=False)
+    fitted = read_model(model)
     folder = out or Path(f"{model.stem}-control")
     check_folder(folder, FILES, FILES[0], [model, *([reference] if reference else [])], force)
     if reference is not None:
         try:
-            _write_feed_forward(fitted, reference, voltage_limit, folder, console)
-            _draw_tracking(fitted, folder, plot or folder / TRACKING)
-            say_path(console, "figure", plot or folder / TRACKING)
+            _follow(fitted, reference, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)
         except ValueError as error:
             raise UserError(str(model), str(error)) from None
     if sweep:
@@ -117,11 +113,12 @@ def control(
             scores = comparison.scores.to_dict("records")
             say_json({"scores": scores, "tuning": comparison.tuning, "warnings": comparison.warnings, "page": page})
             return
+        console = plain_console()
         print_control(comparison, console)
         say_page(console, page, open_page)
 
 
-def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, folder: Path, console: Console) -> None:
+def _follow(fitted: FittedModel, path: Path, limit: float | None, folder: Path, *, drawn: Path, as_json: bool) -> None:
     import numpy as np
     import pandas as pd
 
@@ -135,6 +132,13 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
     table["at_limit"] = followed.cut.astype(int)
     folder.mkdir(parents=True, exist_ok=True)
     write_table(folder / FEED_FORWARD, table, digits=12)
+    _draw_tracking(fitted, folder, drawn)
+    if as_json:
+        said = {"samples": followed.time.size, "at_limit": followed.cut.sum(), "left": followed.left}
+        files = {"feed_forward": folder / FEED_FORWARD, "figure": drawn}
+        say_json({**said, "notes": followed.notes, **files})
+        return
+    console = plain_console()
     say_notes(console, followed.notes)
     if followed.cut.any():
         first = followed.time[int(np.argmax(followed.cut))]
@@ -145,6 +149,7 @@ def _write_feed_forward(fitted: FittedModel, path: Path, limit: float | None, fo
         )
     console.print(f"By the model the output follows to {followed.left:.1g} of its range.", highlight=False)
     say_path(console, "feed-forward", folder / FEED_FORWARD)
+    say_path(console, "figure", drawn)
 
 
 def _sweep(
@@ -157,7 +162,6 @@ def _sweep(
     drawn: Path,
     as_json: bool,
 ) -> None:
-    from hysteresis_bench.commands.terminal.console import plain_console
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.control.trajectories.sweep import sweep
     from hysteresis_bench.data.csv_files import write_table

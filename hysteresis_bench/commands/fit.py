@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
 @data_options
-@click.option("--model", required=True, help="A registered model; see `list models`.")
+@click.option("--model", default="", help="A registered model; see `list models`.")
 @click.option("--effect", "effects", multiple=True, help="An effect around the model; may be repeated.")
 @model_options
 @click.option("--held-out", multiple=True, metavar="RECORD", help="A record that is not fitted.")
@@ -55,13 +55,24 @@ def fit(
     force: bool,
     out: Path | None,
 ) -> None:
-    """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page."""
+    """Fit a model to DATA ...: parameters with standard errors, model.json, a figure, a page.
+
+    A run that was stopped goes on after its last finished search when it is called again.
+    """
     from hysteresis_bench import FitOptions, load
     from hysteresis_bench import fit as fit_model
+    from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.errors import UserError
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
     from hysteresis_bench.report.fit.page import FILE
 
+    if not model:
+        raise UserError(
+            "fit",
+            "name a law with --model; `list models` shows them, `compare` ranks them on your data, and `diagnose` "
+            "finds one without --model.",
+        )
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
@@ -75,11 +86,12 @@ def fit(
         seed=seed,
         **prepared,
     )
-    kept = f"nothing was written to {folder}"
-    with told_when_stopped("fit", lambda: kept, "Run it again to begin anew."), steps_told("fit") as on_step:
-        options = replace(options, on_step=on_step)
-        fitted = fit_model(dataset, model, effects, **asked, options=options)
-    page = write_fit(folder, fitted, data)
+    with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
+        say_notes(plain_console(aside=True), kept.notes)
+        with told_when_stopped("fit", kept.words), steps_told("fit") as on_step:
+            options = replace(options, on_step=on_step, kept=kept)
+            fitted = fit_model(dataset, model, effects, **asked, options=options)
+        page = write_fit(folder, fitted, data)
     if as_json:
         tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}
         said = {"agreement": fitted.agreement, "warnings": fitted.warnings, "notes": fitted.notes}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -21,6 +22,7 @@ def check_file(out: Path, inputs: Sequence[Path] = (), force: bool = False) -> N
     """Raises UserError where a file cannot be written, or would replace one without `force`."""
     if not out.parent.is_dir():
         raise UserError(str(out), f"there is no folder {out.parent} to write it to.")
+    _check_writable(out.parent)
     if out.exists() and (out.is_fifo() or out.is_dir()):
         raise UserError(str(out), "is no file that can be written.")
     if any(_same(out, file) for file in inputs) and not force:
@@ -36,6 +38,7 @@ def check_folder(
 
     files : that will be written;  page : one of them, which says that the folder is the command's own
     """
+    _check_writable(folder)
     if force:
         return
     faults = [f"{file} is one of the inputs." for file in inputs for name in files if _same(folder / name, file)]
@@ -54,6 +57,15 @@ def check_results(folder: Path, force: bool = False) -> None:
             "holds a report that is kept, without its trials, and would be replaced. "
             "Choose another folder with --out, or --force to replace it.",
         )
+
+
+def _check_writable(folder: Path) -> None:
+    """Raises UserError now where a folder could not be written, or made, at the end."""
+    there = next(one for one in (folder, *folder.absolute().parents) if one.exists())
+    if not there.is_dir():
+        raise UserError(str(folder), f"cannot be made: {there} is no folder. Choose another one with --out.")
+    if not os.access(there, os.W_OK | os.X_OK):
+        raise UserError(str(folder), f"cannot be written: {there} is read-only. Choose another place with --out.")
 
 
 def _same(one: Path, other: Path) -> bool:

@@ -10,12 +10,11 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.diagnosis.hypotheses.workers import Kept
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.checks.asked import asked_faults, parameter_faults
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
-from hysteresis_bench.progress import OnStep, quiet
+from hysteresis_bench.progress import Kept, OnStep, quiet
 from hysteresis_bench.signals import Dataset, Record
 
 FEWEST_SAMPLES = 40

@@ -60,8 +60,13 @@ class Chain:
     @property
     def roots(self) -> list[Callable[..., Any]]:
         """The functions that the model calls itself."""
-        names = ("before", "law", "after", *(("inverse", "undone") if self.ignored is not None else ()))
-        return [found for link in self.links for name in names if (found := link.function(name)) is not None]
+        back = self.ignored is not None
+        return [
+            found
+            for link in self.links
+            for name in ("before", "law", "after", *(("inverse", "undone") if back and link.part.invertible else ()))
+            if (found := link.function(name)) is not None
+        ]
 
 
 def chain_of(fitted: FittedModel) -> Chain:
@@ -88,7 +93,7 @@ def chain_of(fitted: FittedModel) -> Chain:
     law, *effects = links
     ignored = None
     if law.part.invertible:
-        ignored = tuple(link.name for link in effects if link.function("undone") is None)
+        ignored = tuple(link.name for link in effects if not link.part.invertible)
     return Chain(fitted, law, tuple(effects), ignored)
 
 

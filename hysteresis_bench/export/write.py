@@ -7,6 +7,7 @@ from pathlib import Path
 from re import sub
 from textwrap import wrap
 
+from hysteresis_bench.control.linear_dynamics import AFTER, BEFORE
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.export.chain import Chain, chain_of
 from hysteresis_bench.export.functions import gathered, name_of
@@ -48,8 +49,22 @@ def notes(chain: Chain) -> list[str]:
         said.append("The law has no exact inverse that is known, or none with these parameters: none is exported.")
     else:
         said.append(
-            "inverse(model, output) takes the wanted output and gives the input; use a model of its own for it."
-            + (f" It leaves out: {', '.join(chain.ignored)}." if chain.ignored else "")
+            "inverse(model, time, output) takes the wanted output and gives the input; use a model of its own for it."
+        )
+        said += _left_out(chain)
+    return said
+
+
+def _left_out(chain: Chain) -> list[str]:
+    """What the inverse does not undo, and why."""
+    dynamics = {name for name, effect in chain.fitted.system.effects if effect.family in (BEFORE, AFTER)}
+    late = [name for name in chain.ignored or () if name in dynamics]
+    rest = [name for name in chain.ignored or () if name not in dynamics]
+    said = [f"It leaves out: {', '.join(rest)}."] if rest else []
+    if late:
+        said.append(
+            f"It leaves out: {', '.join(late)}; undone one sample at a time it would ring at the rate of the samples, "
+            f"or need samples to come. `hysteresis-bench control --reference` undoes it ahead."
         )
     return said
 
@@ -82,8 +97,8 @@ def _lines(chain: Chain, mark: str) -> tuple[list[str], list[str]]:
             step.append(f"y = {_call(name_of(function), link.state, link.constants, given, mark)}")
     if chain.ignored is not None:
         for link in reversed(chain.effects):
-            if (function := link.function("undone")) is not None:
-                undo.append(f"v = {_call(name_of(function), link.state, link.constants, 'v', mark)}")
+            if link.part.invertible and (function := link.function("undone")) is not None:
+                undo.append(f"v = {_call(name_of(function), link.state, link.constants, 't, v', mark)}")
         function = chain.law.function("inverse")
         assert function is not None
         undo.append(f"u = {_call(name_of(function), chain.law.state, chain.law.constants, 'v', mark)}")
@@ -106,9 +121,9 @@ def _python(chain: Chain) -> str:
     inverse = (
         f'''
 
-def inverse(model, output):
+def inverse(model, time, output):
     """The input that makes the output, one sample on."""
-    s, p, v = model, CONSTANTS, output
+    s, p, t, v = model, CONSTANTS, time, output
     {chr(10).join("    " + line for line in undo).strip()}
     return {sign!r} * u + {prepared.input_offset!r}
 '''
@@ -156,8 +171,9 @@ def _c(chain: Chain) -> str:
     inverse = (
         f"""
 
-double hysteresis_inverse(hysteresis_model *model, double output) {{
-    double u, v = output;
+double hysteresis_inverse(hysteresis_model *model, double time, double output) {{
+    double u, t = time, v = output;
+    (void)t;
     {(";" + chr(10) + "    ").join(undo)};
     return {sign} * u + {number(prepared.input_offset)};
 }}"""

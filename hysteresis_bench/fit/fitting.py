@@ -30,7 +30,7 @@ from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
-from hysteresis_bench.progress import OnStep, Step, quiet
+from hysteresis_bench.progress import Kept, OnStep, Step, quiet
 from hysteresis_bench.signals import Dataset, Record
 
 
@@ -44,6 +44,7 @@ class FitOptions:
     skip : seconds at the start of every record that are simulated and not scored
     settle : closed loops are repeated until they close before they are scored
     on_step : called with where the fit is
+    kept : searches of an earlier run that was stopped, which are not made again; every new one is given to it
     """
 
     optimizer: str = registry.SEARCH
@@ -55,6 +56,7 @@ class FitOptions:
     skip: float = 0.0
     settle: bool = False
     on_step: OnStep = field(default=quiet, compare=False, repr=False)
+    kept: Kept | None = field(default=None, compare=False, repr=False)
 
 
 DEFAULT = FitOptions()
@@ -231,6 +233,10 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
         found = []
         for run in (0, 1):
+            asked = ("search", run, repeats)
+            if options.kept is not None and (values := options.kept.get(asked)) is not None:
+                found.append(values)
+                continue
             key = (options.seed, "fit", run)
             start = shared_start(space.dimension, *key)
             said = f"search {run + 1} of 2{f', {repeats} passes of every loop' if options.settle else ''}"
@@ -242,6 +248,8 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
             rng = generator(*key)
             best = search(problem, optimizer, budget=options.budget, start=start, rng=rng, on_evaluated=counted)
             found.append(best.values)
+            if options.kept is not None:
+                options.kept[asked] = best.values
         options.on_step(Step("to the nearest optimum"))
         polished = polish(problem, np.column_stack(found))
         losses = problem.losses(space.to_unit(polished))

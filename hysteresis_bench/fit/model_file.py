@@ -22,6 +22,7 @@ from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.fit.unseen.interval import Interval, interval, interval_of
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import UNITLESS, Dataset, Record
 
@@ -44,6 +45,7 @@ class FittedModel:
     """A model with effects, its parameters found; `predict` is what it is for.
 
     parameters : by the system's names, "effect.parameter" for an effect's
+    interval : how far predictions may be off, None in files of before it was kept
     """
 
     model: str
@@ -58,6 +60,7 @@ class FittedModel:
     error: Mapping[str, Any] = field(default_factory=dict)
     created_by: Mapping[str, str] = field(default_factory=dict)
     schema: int = SCHEMA
+    interval: Interval | None = None
 
     @property
     def system(self) -> System:
@@ -70,10 +73,11 @@ class FittedModel:
         """(dimension,) in the system's order."""
         return np.array([self.parameters[parameter.name].value for parameter in self.system.parameters])
 
-    def predict(self, dataset: Dataset) -> Dataset:
+    def predict(self, dataset: Dataset, level: int = 90) -> Dataset:
         """The records in the model's units, prepared as for the fit, their output replaced by the prediction.
 
         `notes` tell what was done; leading samples that the fit did not score are history.
+        level : percent, of the columns output_low and output_high beside it, where the model keeps an interval
         Raises UserError where units do not convert, or where the response is not finite.
         """
         system, values, known = self.system, self.values[:, None], self.in_own_units(dataset)
@@ -84,7 +88,10 @@ class FittedModel:
             if not np.all(np.isfinite(output)):
                 raise UserError(record.name, "the model's response to this record is not finite.")
             skipped = self.preparation.skipped(record).history
-            return replace(record, output=output, history=skipped, units={**record.units, **self._output_unit})
+            around = self.interval.around(output, level) if self.interval else {}
+            units = {**record.units, **dict.fromkeys(("output", *around), self.units["output"])}
+            columns = {**record.columns, **around}
+            return replace(record, output=output, history=skipped, units=units, columns=columns)
 
         notes = [*known.notes, *self.preparation.words(known.records, self.units["time"])]
         if self.schema < SCHEMA:
@@ -99,10 +106,6 @@ class FittedModel:
             for record in known.records
             if record.output is not None and self.preparation.skipped(record).history < record.time.size
         }
-
-    @property
-    def _output_unit(self) -> dict[str, str]:
-        return {"output": self.units["output"]}
 
     def in_own_units(self, dataset: Dataset) -> Dataset:
         """The records in the model's units. Raises UserError where units do not convert."""
@@ -153,6 +156,7 @@ def fitted_model(
         },
         error,
         {"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
+        interval=interval(problem, values, dataset.held_out),
     )
 
 
@@ -184,6 +188,7 @@ def write_model(path: Path, fitted: FittedModel) -> None:
         "preparation": asdict(fitted.preparation),
         "data": dict(fitted.data),
         "error": dict(fitted.error),
+        "interval": fitted.interval and fitted.interval.as_dict(),
         "created_by": dict(fitted.created_by),
     }
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
@@ -198,7 +203,7 @@ def read_model(path: Path) -> FittedModel:
     except OSError as error:
         raise UserError(str(path), f"cannot be read: {error.strerror}.") from None
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise UserError(str(path), f"is not valid JSON: {error}.") from None
+        raise UserError(str(path), f"is no model.json as `fit` and `diagnose` write it: {error}.") from None
     schema = content.get("schema") if isinstance(content, dict) else None
     if type(schema) is not int or schema not in READABLE:
         known = " or ".join(map(str, READABLE))
@@ -278,6 +283,7 @@ def _fitted(content: Mapping[str, Any]) -> FittedModel:
         value_of(content, "error", dict),
         value_of(content, "created_by", dict),
         content["schema"],
+        interval_of(content.get("interval")),
     )
 
 

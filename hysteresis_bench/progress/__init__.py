@@ -1,10 +1,10 @@
-"""Where a long computation is: told upward by a function that is passed down, printed by commands alone."""
+"""Where a long computation is, and what an earlier run of it left: told upward, printed and kept by commands alone."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 
 @dataclass(frozen=True)
@@ -19,6 +19,14 @@ class Step:
 
 OnStep: TypeAlias = Callable[[Step], None]
 """Called whenever a step begins or goes on; it must return at once."""
+
+
+class Kept(Protocol):
+    """Answers of an earlier run, by all that determines them but the code; every new one is given to it."""
+
+    def get(self, question: tuple[Any, ...]) -> Any | None: ...
+
+    def __setitem__(self, question: tuple[Any, ...], answer: Any) -> None: ...
 
 
 def quiet(step: Step) -> None:

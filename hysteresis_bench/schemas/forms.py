@@ -49,6 +49,14 @@ class Stage(Form):
     held_out: Errors | None = None
 
 
+class IntervalFile(Form):
+    """How far predictions may be off: half-widths by percent of a record's samples, in the unit of the output."""
+
+    half_widths: dict[str, float]
+    records: int
+    speeds: list[float]
+
+
 class ModelFile(Form):
     """A fitted model: model.json."""
 
@@ -64,6 +72,7 @@ class ModelFile(Form):
     preparation: dict[str, Any] = {}
     data: dict[str, Any] = {}
     error: dict[str, Errors | None] = {}
+    interval: IntervalFile | None = None
     created_by: dict[str, str] = {}
 
 

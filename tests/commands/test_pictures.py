@@ -1,8 +1,11 @@
 """`predict --plot` and `control --reference` draw; pages open, or say where they are."""
 
+import json
+import os
 import webbrowser
 
 import numpy as np
+import pandas as pd
 import pytest
 from click.testing import CliRunner
 
@@ -51,6 +54,25 @@ def test_control_draws_tracking(here):
     assert "--plot draws what --reference or --sweep makes" in told(
         "control", "model.json", "--rig", "pea", "--plot", "x.png", code=2
     )
+
+
+def test_where_nothing_can_be_written_is_told_before_the_work(here, monkeypatch):
+    fit = ("fit", "loop.csv", "--model", "polynomial", "--out")
+    assert "loop.csv is no folder" in told(*fit, "loop.csv/fit", code=2)
+    monkeypatch.setattr(os, "access", lambda path, mode, **_: mode & os.W_OK == 0)
+    for command in (fit, ("control", "model.json", "--sweep", "1", "--out")):
+        assert "is read-only. Choose another place with --out." in told(*command, "new/place", code=2)
+    assert "is read-only" in told("predict", "model.json", "loop.csv", "--out", "p.csv", code=2)
+
+
+def test_control_tells_a_program(here):
+    command = ("control", "model.json", "--reference", "loop.csv", "--voltage-limit", "0.5", "--out", "c", "--json")
+    found = json.loads(told(*command))
+    cut = pd.read_csv(here / found["feed_forward"])["at_limit"]
+    assert (found["samples"], found["at_limit"]) == (cut.size, cut.sum())
+    assert found["at_limit"] > 0
+    assert (here / found["figure"]).is_file()
+    assert "one of them alone" in told(*command, "--sweep", "1", code=2)
 
 
 @pytest.mark.parametrize("found", [True, False])

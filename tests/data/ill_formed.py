@@ -1,4 +1,4 @@
-"""Forty files as instruments, loggers and spreadsheets write them: what is read from each, or what is said of it."""
+"""Files as instruments, loggers and spreadsheets write them: what is read from each, or what is said of it."""
 
 from __future__ import annotations
 
@@ -57,6 +57,10 @@ def clock(lines: list[str]) -> list[str]:
 def stamped(lines: list[str]) -> list[str]:
     return [f"2024-05-0{6} 23:59:59.{int(second * 1000):03d},{line.partition(',')[2]}"
             for second, line in zip(TIME, lines, strict=True)]  # fmt: skip
+
+
+def scientific(lines: list[str]) -> list[str]:
+    return [",".join(f"{float(cell):.8E}" for cell in line.split(",")) for line in lines]
 
 
 def npz(**arrays: Any) -> Write:
@@ -163,6 +167,30 @@ CASES: dict[str, Case] = {
     "decimal commas between commas": Case(text("time,input,output", ",", ","), "semicolons"),
     "text in a number's place": Case(text("time,input,output", edit=at(4, "0.04,OVERLOAD,1.5")), "row 6, column"),
     "two outputs": Case(text("time,input,output,output", columns=COLUMNS[:, [0, 1, 2, 2]]), 'called "output"'),
+    "a spreadsheet's line on its delimiter": Case(text("sep=;\ntime;input;output", ";")),
+    "old line ends": Case(text(STATED, end="\r"), units=SI),
+    "every other line empty": Case(text("time,input,output", end="\n\n")),
+    "a quoted header": Case(text('"time [s]","input [V]","output [um]"'), units=SI),
+    "exponents": Case(text("time,input,output", edit=scientific)),
+    "Fortran's exponents": Case(
+        text("time,input,output", edit=lambda lines: [one.replace("E", "D") for one in scientific(lines)])
+    ),
+    "typeset minus": Case(text("time,input,output", edit=lambda lines: [one.replace("-", "−") for one in lines])),
+    "apostrophes between thousands": Case(
+        text("time;input;output;load", ";", edit=lambda lines: [f"{one};1'200.5" for one in lines])
+    ),
+    "a line at the end": Case(text("time,input,output", edit=lambda lines: [*lines, "End of data"]), "begin it with #"),
+    "the header again": Case(
+        text("time,input,output", edit=lambda lines: [*lines[:20], "time,input,output", *lines[20:]]), "begin it with #"
+    ),
+    "an overflow": Case(text("time,input,output", edit=at(9, "0.09,inf,1.5")), 'row 11, column "input": "inf" is not'),
+    "nothing": Case(lambda path: path.write_bytes(b""), "No columns"),
+    "a header only": Case(lambda path: path.write_text("time,input,output\n"), "no samples"),
+    "one sample": Case(lambda path: path.write_text("time,input,output\n0,1,2\n"), "at least 2"),
+    "time that runs back": Case(text("time,input,output", columns=COLUMNS[::-1]), "must strictly increase"),
+    "a time twice": Case(text("time,input,output", edit=at(9, "0.08,1.0,1.5")), "row 11"),
+    "a resting input": Case(text("time,input,output", columns=COLUMNS * [1, 0, 1]), "does not move"),
+    "zeros in the text": Case(text("time,input,output", edit=at(9, "\0" * 20)), "is not text"),
     "npz": Case(npz(**RECORD), suffix=".npz"),
     "npz without time": Case(
         npz(voltage=INPUT, x=OUTPUT), layout={"rate": 100.0, "input": "voltage", "output": "x"}, suffix=".npz"

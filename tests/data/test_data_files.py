@@ -68,8 +68,16 @@ def test_all_faults_at_once(tmp_path):
 
 
 def test_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(UserError, match="No such file"):
+    with pytest.raises(UserError, match=r"there is no such file\.$"):
         read_data([tmp_path / "none.csv"])
+    write(tmp_path, "time,input,output\n0,1,2\n1,2,3\n", "slow.csv")
+    with pytest.raises(UserError, match=r'Did you mean ".*slow\.csv"'):
+        read_data([tmp_path / "slwo.csv"])
+    with pytest.raises(UserError, match=r"is a folder; name its files, such as .*slow\.csv"):
+        read_data([tmp_path])
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(UserError, match="is a folder; it holds no data files"):
+        read_data([tmp_path / "empty"])
 
 
 def test_units_must_agree_and_names_differ(tmp_path):

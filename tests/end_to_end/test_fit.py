@@ -74,7 +74,7 @@ def test_predict_replaces_the_output(fitted, tmp_path):
     done = run_command("predict", fitted[1] / "model.json", data, "--out", out)
     assert done.returncode == 0, done.stderr
     predicted = pd.read_csv(out)
-    assert list(predicted.columns) == ["time [s]", "input [V]", "output [um]"]
+    assert list(predicted.columns) == ["time [s]", "input [V]", *(f"output{of} [um]" for of in ("", "_low", "_high"))]
     assert predicted["output [um]"].to_numpy() == pytest.approx([0, 1.5 * 0.5 + 0.4 * 0.125, 1.9], abs=0.02)
 
 

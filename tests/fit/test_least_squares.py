@@ -6,9 +6,10 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import FOLDS, advantage, cut, left_out_errors
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import advantage
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, point_of, split, values_of
+from hysteresis_bench.fit.unseen.left_out import FOLDS, cut, left_out_errors
 from tests.diagnosis.generator import make
 
 

@@ -107,7 +107,7 @@ def test_the_page_stands_alone_and_escapes(tmp_path, diagnosis):
     assert "no column temperature &lt;here&gt;" in page
     assert not re.search(r'(src|href)="https?:', page)
     assert "prefers-color-scheme: dark" in page
-    assert {path.name for path in (tmp_path / "figures").iterdir()} >= {"waterfall.svg", "loop-1-other.svg"}
+    assert {path.name for path in (tmp_path / "figures").iterdir()} >= {"waterfall.svg", "loop-1-other-before.svg"}
     identifiers = re.findall(r'\bid="([^"]+)"', page)
     assert len(identifiers) == len(set(identifiers))
 
@@ -152,7 +152,7 @@ def test_many_records_are_told_and_some_drawn(tmp_path, diagnosis):
     page = _written(tmp_path, replace(diagnosis, responses=many))
     assert f"{12 - MOST} more records are not drawn" in page
     assert "other (held-out)" in page
-    assert len(list((tmp_path / "figures").glob("loop-*.svg"))) == MOST
+    assert len(list((tmp_path / "figures").glob("loop-*-after.svg"))) == MOST
 
 
 def test_the_page_of_an_older_diagnosis_shows_what_its_files_have(tmp_path, diagnosis):
@@ -191,3 +191,10 @@ def test_a_long_record_is_kept_as_finely_as_a_figure_shows(tmp_path, diagnosis):
     kept = pd.read_csv(tmp_path / RESPONSES)
     assert len(kept) == DRAWN
     assert kept["time"].iloc[-1] == long["time"].iloc[-1]
+
+
+def test_what_nothing_was_added_to_is_drawn_once(tmp_path, diagnosis):
+    same = diagnosis.responses.assign(before=diagnosis.responses["after"])
+    page = _written(tmp_path, replace(diagnosis, responses=same))
+    assert "loop-1-other-before" not in page
+    assert "Measured and simulated." in page

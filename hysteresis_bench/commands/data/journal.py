@@ -1,4 +1,4 @@
-"""What a diagnosis has fitted so far, in a file beside its results: a run that was stopped goes on from it.
+"""What a command has fitted so far, in a file beside its results: a run that was stopped goes on from it.
 
 A line an answer: the digest of what was asked, the digest of the rest of the line, and the answer as JSON, every
 number to the last bit. What was asked is told by its content: the records, the model, the parameters already known.
@@ -103,8 +103,8 @@ class Journal:
             else:
                 damaged += 1
         if self._answers:
-            count = len(self._answers)
-            yield f"{count} fits of a run that was stopped are used, from {self.path}."
+            fits = "1 fit" if len(self._answers) == 1 else f"{len(self._answers)} fits"
+            yield f"Used of a run that was stopped: {fits}, from {self.path}."
         if damaged:
             yield f"{self.path}: {damaged} of {len(lines)} lines are damaged; what they held is fitted again."
 
@@ -115,7 +115,7 @@ def digest(thing: object) -> str:
 
 
 def made_with() -> str:
-    """SHA-256 of all code that a diagnosis may run, with the versions of packages, and the processor."""
+    """SHA-256 of all code that a fit may run, with the versions of packages, and the processor."""
     groups = [f"hysteresis_bench.{kind}" for kind in registry.CONTRACTS]
     homes = {entry.module.partition(".")[0] for group in groups for entry in entry_points(group=group)}
     found = []

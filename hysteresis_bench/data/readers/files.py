@@ -5,6 +5,7 @@ from __future__ import annotations
 import stat
 from collections import Counter
 from collections.abc import Mapping
+from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from hysteresis_bench.data.readers.text import read_text
 from hysteresis_bench.errors import UserError, nearest
 
 OLD = {".xls": "save it as .xlsx", ".ods": "save it as .xlsx", ".parquet": "save it as CSV", ".tdms": "save it as CSV"}
+DATA = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".mat", ".npz", ".npy", ".h5", ".hdf5")
 MOST_COLUMNS = 64
 """Columns of an array beyond which it is no table of samples."""
 
@@ -30,9 +32,16 @@ def read_sheets(path: Path, layout: Layout) -> list[Sheet]:
     Raises UserError for what cannot be read, or holds none.
     """
     try:
+        if path.is_dir():
+            such = f"name its files, such as {found[0]}." if (found := _files(path)) else "it holds no data files."
+            raise UserError(str(path), f"is a folder; {such}")
         if not stat.S_ISREG(path.stat().st_mode):
-            raise UserError(str(path), "is no file that can be read twice, but a folder, a pipe or a device.")
+            raise UserError(str(path), "is no file that can be read twice, but a pipe or a device.")
         sheets = _read(path, layout)
+    except FileNotFoundError:
+        close = get_close_matches(str(path), _files(path.parent), n=1)
+        meant = f' Did you mean "{close[0]}"?' if close else ""
+        raise UserError(str(path), f"there is no such file.{meant}") from None
     except OSError as error:
         reason = error.strerror or str(error).split("\n")[0]
         raise UserError(str(path), f"cannot be read as {_kind(path)}: {reason}.") from None
@@ -44,6 +53,11 @@ def read_sheets(path: Path, layout: Layout) -> list[Sheet]:
     if not sheets:
         raise UserError(str(path), "holds no columns of numbers.")
     return sheets
+
+
+def _files(folder: Path) -> list[str]:
+    """What a folder holds that looks like data, as paths."""
+    return sorted(str(one) for one in folder.iterdir() if one.suffix.lower() in DATA) if folder.is_dir() else []
 
 
 def _kind(path: Path) -> str:

@@ -12,10 +12,10 @@ import pandas as pd
 from hysteresis_bench.arrays import Array
 
 MISSING = frozenset({"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---"})
-NUMBER = re.compile(r"[-+−]?(\d[\d.,]*|[.,]\d+)([eEdD][-+]?\d+)?")
+NUMBER = re.compile(r"[-+−]?(\d[\d.,'’]*|[.,]\d+)([eEdD][-+]?\d+)?")
 COMMA_GROUPS = re.compile(r"[-+−]?[1-9]\d{0,2}(,\d{3})+")
 POINT_GROUPS = re.compile(r"[-+−]?[1-9]\d{0,2}(\.\d{3})+")
-GROUPS = {",": re.compile(r"(?<=\d)\.(?=\d{3}(\D|$))"), ".": re.compile(r"(?<=\d),(?=\d{3}(\D|$))")}
+GROUPS = {",": re.compile(r"(?<=\d)[.'’](?=\d{3}(\D|$))"), ".": re.compile(r"(?<=\d)[,'’](?=\d{3}(\D|$))")}
 """What may stand between thousands, by the decimal mark."""
 CLOCK = re.compile(r"(\d{1,3}):(\d\d)(?::(\d\d(?:[.,]\d+)?))?")
 ISO = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d([.,]\d+)?)?)?(Z|[-+]\d\d:?\d\d)?")

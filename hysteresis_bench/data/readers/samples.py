@@ -23,6 +23,8 @@ LARGEST = 1e100
 """Largest number that can be squared and summed."""
 GAPS = 0.2
 """Share of rows without a number that are gaps; more of them are a fault of the file."""
+FEW = 5
+"""Lines that a footer, or a header in the middle, has at most."""
 SHOWN = 4
 """Gaps that a sentence lists."""
 
@@ -124,8 +126,10 @@ def _fault(cells: pd.Series, bad: Array, decimal: str) -> str:
     why = f"is too large to work with, beyond {LARGEST:g}" if too_large else "is not a finite number"
     more = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
     helps = ""
-    if not too_large and decimal == "." and number(text, ",") == number(text, ","):
+    if not too_large and decimal == "." and math.isfinite(number(text, ",")):
         helps = " Is it a decimal comma? Say so with --decimal ,"
+    elif not too_large and cells.name == "time" and bad.size <= FEW:
+        helps = " If the line is no sample, take it out, or begin it with #."
     elif not too_large and cells.name == "time":
         helps = " Give --rate HZ in place of the time."
     return f'row {cells.index[bad[0]]}, column "{cells.name}": {shown} {why}{more}.{helps}'

@@ -21,9 +21,9 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.blocks import blocked
 from hysteresis_bench.diagnosis.evidence.memoryless import Law, Spline, Thinned, lagged_laws, own_delays, thinned
 from hysteresis_bench.diagnosis.evidence.view import View
+from hysteresis_bench.fit.unseen.blocks import blocked
 
 MATERIAL = 0.005
 """Explained RMS, as a share of the output's range, from which branches matter."""

@@ -17,7 +17,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates
-from hysteresis_bench.diagnosis.evidence.blocks import blocked
+from hysteresis_bench.fit.unseen.blocks import blocked
 from hysteresis_bench.signals import Record
 
 LEVEL = 0.01

@@ -12,9 +12,7 @@ from numpy.random import default_rng
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.evidence.blocks import Blocks
 from hysteresis_bench.diagnosis.evidence.noise import fast_noise
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import cut, left_out_errors, unseen_errors
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.starts import grid
@@ -23,6 +21,8 @@ from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
+from hysteresis_bench.fit.unseen.blocks import Blocks
+from hysteresis_bench.fit.unseen.left_out import cut, left_out_errors, unseen_errors
 from hysteresis_bench.parameters import Parameter
 
 BUDGET = 1500

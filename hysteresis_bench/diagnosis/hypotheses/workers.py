@@ -9,10 +9,10 @@ from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import replace
 from types import TracebackType
-from typing import Any, Generic, Protocol, Self, TypeVar, cast
+from typing import Any, Generic, Self, TypeVar, cast
 
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.progress import OnStep, Step, quiet
+from hysteresis_bench.progress import Kept, OnStep, Step, quiet
 from hysteresis_bench.study.execution.lifetime import end_with
 
 Answer = TypeVar("Answer")
@@ -30,19 +30,11 @@ WORDS = {
 }
 
 
-class Kept(Protocol):
-    """Answers of an earlier run, by (fitter, method's name, *arguments): all that determines them but the code."""
-
-    def get(self, question: tuple[Any, ...]) -> Any | None: ...
-
-    def __setitem__(self, question: tuple[Any, ...], answer: Any) -> None: ...
-
-
 class Workers(Generic[Answer]):
     """Runs methods of a fitter, in order of the questions; in this process where there is one job, or no fork.
 
     Answer : what the methods return;  on_step : told of every answer
-    kept : asked before anything is run, and given every answer as it comes
+    kept : asked for (fitter, method's name, *arguments) before anything is run, and given every answer as it comes
     """
 
     def __init__(self, fitter: Any, jobs: int, on_step: OnStep = quiet, kept: Kept | None = None) -> None:

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage, cut
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.laws.law import Law
+from hysteresis_bench.fit.unseen.left_out import cut
 from hysteresis_bench.signals import Record
 
 ALONE = 2.0

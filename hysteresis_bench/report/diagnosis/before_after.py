@@ -59,12 +59,12 @@ def step_by_step(folder: Path, found: Mapping[str, Any], units: Units, *, name: 
 
 
 def record_blocks(folder: Path, place: str, rows: pd.DataFrame, *, noise: float, units: Units) -> list[Block]:
-    """Heading, loop and residual of one record; place : what the figures' names have before the record's."""
+    """Heading, loops and residuals of one record; place : what the figures' names have before the record's."""
     record, role = rows["record"].iloc[0], rows["role"].iloc[0]
     heading, name = f"{record} ({role})", f"{place}-{record}"
     drawn = loops(folder, f"loop-{name}", rows, units=units, caption=f"{heading}.")
     left = residuals(folder, f"residual-{name}", rows, noise=noise, units=units, caption=f"{heading}.")
-    return [Heading(heading), Figures([drawn, left])]
+    return [Heading(heading), Figures([*drawn, *left], "small" if len(drawn) == 1 else "")]
 
 
 def ties_in_words(ties: Sequence[Mapping[str, Any]]) -> list[str]:

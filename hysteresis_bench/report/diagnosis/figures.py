@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from hysteresis_bench.report.shared.papers import COLUMN
 from hysteresis_bench.report.shared.text import Units, named, number
 from hysteresis_bench.report.shared.theme import GRID, INK, MUTED, SERIES, Picture, legend, picture
 
@@ -66,39 +67,55 @@ def waterfall(
         "takes away. Diamonds: error on what was not fitted, bare and final."
     )
     height = 1.25 + 0.36 * len(steps)
-    return picture(folder, name, (6.4, height), alt=f"RMSE step by step: {steps_in_words}.", caption=caption, draw=draw)
+    return picture(folder, name, (5.4, height), alt=f"RMSE step by step: {steps_in_words}.", caption=caption, draw=draw)
 
 
-def loops(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> Picture:
-    """Output over input of one record, measured, before and after side by side."""
+def loops(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> list[Picture]:
+    """Output over input of one record, measured and simulated, before and after; one where they are the same."""
+    stages = _stages(rows)
+    outputs = rows[["output", *(column for column, _, _ in stages)]]
+    low, high = outputs.min(axis=None), outputs.max(axis=None)
+    room = 0.05 * (high - low)
 
-    def draw(figure: Any) -> None:
-        for axes, which, colour in zip(
-            figure.subplots(1, 2, sharex=True, sharey=True), ("before", "after"), (BEFORE, AFTER), strict=True
-        ):
+    def drawn(which: str, label: str, colour: str) -> Picture:
+        def draw(figure: Any) -> None:
+            axes = figure.add_subplot()
             axes.plot(rows["input"], rows["output"], color=MUTED, linewidth=2.6, alpha=0.5, label="measured")
-            axes.plot(rows["input"], rows[which], color=colour, linewidth=1.1, label=which)
-            axes.set_xlabel(named("Input", units, "input"))
+            axes.plot(rows["input"], rows[which], color=colour, linewidth=1.1, label=label)
+            axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
+            axes.set_ylim(low - room, high + room)
             legend(axes)
-        figure.axes[0].set_ylabel(named("Output", units, "output"))
 
-    return picture(folder, name, (6.0, 3.0), alt=f"Loop before and after. {caption}", caption=caption, draw=draw)
+        told = f"{caption} Measured and {label}."
+        return picture(folder, f"{name}-{which}", (COLUMN, 3.0), alt=f"Loop. {told}", caption=told, draw=draw)
+
+    return [drawn(*stage) for stage in stages]
 
 
-def residuals(folder: Path, name: str, rows: pd.DataFrame, *, noise: float, units: Units, caption: str) -> Picture:
+def residuals(
+    folder: Path, name: str, rows: pd.DataFrame, *, noise: float, units: Units, caption: str
+) -> list[Picture]:
     """Measured minus simulated of one record, over time and over input, before and after; noise : RMS, shaded."""
 
-    def draw(figure: Any) -> None:
-        panels = figure.subplots(1, 2, sharey=True, width_ratios=(1.7, 1))
-        for axes, along, label in zip(panels, ("time", "input"), ("Time", "Input"), strict=True):
+    def drawn(along: str) -> Picture:
+        def draw(figure: Any) -> None:
+            axes = figure.add_subplot()
             axes.axhspan(-2 * noise, 2 * noise, color=GRID, alpha=0.7, linewidth=0)
             axes.axhline(0, color=INK, linewidth=0.6)
-            for which, colour in (("before", BEFORE), ("after", AFTER)):
-                axes.plot(rows[along], rows["output"] - rows[which], color=colour, linewidth=0.8, label=which)
-            axes.set_xlabel(named(label, units, along))
+            for which, label, colour in _stages(rows):
+                axes.plot(rows[along], rows["output"] - rows[which], color=colour, linewidth=0.8, label=label)
+            axes.set(xlabel=named(along.capitalize(), units, along), ylabel=named("Residual", units, "output"))
             axes.locator_params(axis="x", nbins=5)
-        panels[0].set_ylabel(named("Residual", units, "output"))
-        legend(panels[0])
+            legend(axes)
 
-    shaded = f"{caption} Shaded: twice the noise to either side."
-    return picture(folder, name, (6.4, 2.6), alt=f"Residual before and after. {caption}", caption=shaded, draw=draw)
+        told = f"{caption} Residual over {along}; shaded: twice the noise to either side."
+        return picture(folder, f"{name}-{along}", (COLUMN, 2.6), alt=told, caption=told, draw=draw)
+
+    return [drawn("time"), drawn("input")]
+
+
+def _stages(rows: pd.DataFrame) -> list[tuple[str, str, str]]:
+    """Column, label and colour of what is drawn; one where nothing was added."""
+    if rows["before"].equals(rows["after"]):
+        return [("after", "simulated", AFTER)]
+    return [("before", "before", BEFORE), ("after", "after", AFTER)]

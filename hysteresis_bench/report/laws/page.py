@@ -18,6 +18,9 @@ from hysteresis_bench.report.shared.blocks import Bullets, Figures
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
 from hysteresis_bench.report.shared.text import listed
 
+EQUAL = 0.01
+"""Share of the chosen law's error by which another one is as good."""
+
 FILE, LAWS = "laws.html", "laws.csv"
 FILES = (LAWS, FILE)
 
@@ -64,10 +67,14 @@ def _structure(folder: Path, found: Comparison) -> Section:
 def _title(found: Comparison) -> str:
     if not found.chosen:
         return "No law beats a polynomial"
-    error = float(found.table.set_index("law").loc[found.chosen, "unseen"])
+    errors = found.table.set_index("law")["unseen"]
+    error = float(errors[found.chosen])
+    others = errors.drop([found.chosen, BASELINE])
+    equal = others.index[(others - error).abs() <= EQUAL * error]
+    names, many = listed([found.chosen, *equal]), len(equal) > 0
     if error <= WRONG * found.floor:
-        return f"{found.chosen} follows these data"
-    return f"{found.chosen} comes nearest, at {error / found.floor:.2g} times the noise"
+        return f"{names} {'follow' if many else 'follows'} these data"
+    return f"{names} {'come' if many else 'comes'} nearest, at {error / found.floor:.2g} times the noise"
 
 
 def print_comparison(found: Comparison, console: Console) -> None:

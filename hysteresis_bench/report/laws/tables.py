@@ -45,7 +45,7 @@ def laws_figure(folder: Path, laws: Laws, *, floor: float, units: Units, name: s
         "Error of every law on what was left out of its fit, and on what was held out from all of them. The cubic "
         "polynomial of the input has no memory: a law that does not beat it has found no hysteresis."
     )
-    size = (6.4, 1.3 + 0.27 * len(shown))
+    size = (5.4, 1.3 + 0.27 * len(shown))
     return picture(folder, name, size, alt=f"RMSE of every law: {told}.", caption=caption, draw=draw)
 
 

@@ -11,6 +11,7 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.unseen.interval import HIGH
 from hysteresis_bench.report.shared.text import Units, named
 from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, STYLE, legend
 from hysteresis_bench.signals import Dataset
@@ -47,7 +48,7 @@ def draw_records(path: Path, dataset: Dataset) -> None:
 
 
 def draw_prediction(path: Path, measured: Dataset, predicted: Dataset) -> None:
-    """Measured and predicted loops, and the error over time, of the first records that were measured."""
+    """Measured and predicted loops, the error over time, and the interval about it, of the first records."""
     pairs = list(zip(measured.records, predicted.records, strict=True))[:MOST]
 
     def draw(figure: Any) -> None:
@@ -59,6 +60,12 @@ def draw_prediction(path: Path, measured: Dataset, predicted: Dataset) -> None:
             loop.plot(known.input, made.output, color=colour, linewidth=1.0, label=made.name)
         loop.set_title("measured (grey) and predicted")
         error.set_title("predicted minus measured")
+        made = pairs[0][1]
+        if HIGH in made.columns:  # as far from the prediction everywhere
+            half = float(made.columns[HIGH][0] - np.asarray(made.output)[0])
+            error.set_title("predicted minus measured, and the interval")
+            for edge in (-half, half):
+                error.axhline(edge, color=INK, linewidth=1.0, linestyle="--", zorder=3)
         _label(loop, predicted.units, "input", "output")
         _label(error, predicted.units, "time", "output")
         loop.legend(frameon=False)

@@ -58,6 +58,10 @@ STYLE: dict[Any, Any] = {
 }
 
 
+LEGIBLE = 0.9
+"""Pixels a point below which a figure is scrolled, not made smaller: 5.5 inches still fit a phone of 390 pixels."""
+
+
 @dataclass(frozen=True)
 class Picture:
     """A figure on disk and in the page. name : of its file; alt : what it shows, for who cannot see it."""
@@ -106,7 +110,8 @@ def inline(svg: str, name: str, alt: str) -> str:
     assert box is not None
     width = float(box[1].split()[2])
     label = escape(alt, quote=True)
-    head = f'<svg viewBox="{box[1]}" role="img" aria-label="{label}" style="max-width: {1.55 * width:.0f}px">'
+    style = f"max-width: {1.55 * width:.0f}px; --least: {LEGIBLE * width:.0f}px"
+    head = f'<svg viewBox="{box[1]}" role="img" aria-label="{label}" style="{style}">'
     body = head + body[body.index(">") + 1 :]
     body = re.sub(r'\bid="([^"]+)"', rf'id="{name}.\1"', body)
     body = re.sub(r"url\(#([^)]+)\)", rf"url(#{name}.\1)", body)

@@ -13,9 +13,9 @@ def after(s: Array, p: Array, t: float, u: float, y: float) -> float:
     return y + p[0]
 
 
-def undone(s: Array, p: Array, y: float) -> float:
+def undone(s: Array, p: Array, t: float, y: float) -> float:
     return y - p[0]
 
 
 def part(effect: Any, p: Mapping[str, float], timed: bool) -> Part:
-    return Part((p["offset"],))
+    return Part((p["offset"],), invertible=True)

@@ -16,5 +16,9 @@ def after(s: Array, p: Array, t: float, u: float, y: float) -> float:
     return y + p[0] * (t - s[1])
 
 
+def undone(s: Array, p: Array, t: float, y: float) -> float:
+    return y - after(s, p, t, 0.0, 0.0)
+
+
 def part(effect: Any, p: Mapping[str, float], timed: bool) -> Part | None:
-    return Part((p["rate"],), state=2) if timed else None
+    return Part((p["rate"],), state=2, invertible=True) if timed else None

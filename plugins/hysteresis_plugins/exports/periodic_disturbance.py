@@ -15,5 +15,9 @@ def after(s: Array, p: Array, t: float, u: float, y: float) -> float:
     return y + p[0] * math.cos(phase) + p[1] * math.sin(phase)
 
 
+def undone(s: Array, p: Array, t: float, y: float) -> float:
+    return y - after(s, p, t, 0.0, 0.0)
+
+
 def part(effect: Any, p: Mapping[str, float], timed: bool) -> Part | None:
-    return Part((p["cosine"], p["sine"], p["frequency"])) if timed else None
+    return Part((p["cosine"], p["sine"], p["frequency"]), invertible=True) if timed else None

@@ -11,4 +11,4 @@ from hysteresis_plugins.exports.bias import undone as undone
 
 
 def part(effect: Any, p: Mapping[str, float], timed: bool) -> Part:
-    return Part((effect.default,))
+    return Part((effect.default,), invertible=True)

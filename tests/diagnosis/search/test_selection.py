@@ -5,10 +5,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import Blocks
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.search.selection import Selection
+from hysteresis_bench.fit.unseen.blocks import Blocks
 
 FLOOR = 0.1
 WAVE = np.sqrt(2.0) * np.sin(2 * np.pi * np.arange(480) / 10)

@@ -1,0 +1,1 @@
+"""What a fit does on samples that it was not shown."""

@@ -1,0 +1,122 @@
+"""How far a prediction may be from a measurement: conformal half-widths, from errors of fits that left records out.
+
+Every fitted record is predicted by a fit to the others, every held-out one by the fit itself. Where they are alike with
+the next record, the largest of their own quantiles holds that share of its samples with a probability of records /
+(records + 1), whatever the noise or the law [1]. Ours: a record, not a sample, is what is exchanged, as errors of
+neighbouring samples are alike; and the fits differ by the record that is left out, as in the jackknife.
+
+[1] V. Vovk, A. Gammerman, G. Shafer, Algorithmic Learning in a Random World, Springer (2005); for records of several
+samples R. Dunn, L. Wasserman, A. Ramdas, J. Am. Stat. Assoc. 118 (2023) 2491.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.fit.json_values import number_of, value_of
+from hysteresis_bench.fit.least_squares import split
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.left_out import cut, left_out_errors, unseen_errors
+from hysteresis_bench.signals import Record
+
+LEVELS = (50, 68, 90, 95, 99)
+"""Percent of a record's samples."""
+
+LOW, HIGH = "output_low", "output_high"
+"""Columns beside a prediction."""
+
+BEYOND = 1.25
+"""Times the fastest, or slowest, fitted record, from which an input counts as of another speed."""
+
+
+@dataclass(frozen=True)
+class Interval:
+    """half_widths : unit of the output, a level of `LEVELS` each
+    records : how many were predicted unseen; 0 where a lone record's own blocks were
+    speeds : lowest and highest RMS rate of the fitted inputs, their unit per unit of time
+    """
+
+    half_widths: Mapping[int, float]
+    records: int
+    speeds: tuple[float, float]
+
+    def around(self, output: Array, level: int) -> dict[str, Array]:
+        """The columns `LOW` and `HIGH`, (samples,)."""
+        half = self.half_widths[level]
+        return {LOW: output - half, HIGH: output + half}
+
+    def words(self, level: int, unit: str) -> str:
+        """What it promises."""
+        said = f"{level} % interval: ±{self.half_widths[level]:.3g}{'' if unit == '1' else f' {unit}'}"
+        if not self.records:
+            return (
+                f"{said}, from blocks left out of the one record that was fitted: it holds for excitations like that "
+                f"one, and nothing is known of others. Fit several records, or hold one out."
+            )
+        share, count = self.records / (self.records + 1), "1 record" if self.records == 1 else f"{self.records} records"
+        return (
+            f"{said}, the widest of {count} predicted unseen: of the next one like them it holds {level} % of the "
+            f"samples or more with a probability of {share:.0%}."
+        )
+
+    def beyond(self, record: Record, ranges: Sequence[float]) -> Iterator[str]:
+        """Why it need not hold for a record, a sentence each; ranges : of the fitted inputs, in the record's unit."""
+        if ranges:
+            low, high = ranges
+            slack = 0.01 * (high - low)
+            outside = float(np.mean((record.input < low - slack) | (record.input > high + slack)))
+            if outside:
+                yield (
+                    f"{record.name}: {outside:.0%} of its samples lie beyond the fitted inputs ({low:.4g} to "
+                    f"{high:.4g}); there the interval need not hold."
+                )
+        slow, fast = self.speeds
+        if record.timed and not slow / BEYOND <= (own := speed(record)) <= fast * BEYOND:
+            times = f"{own / fast:.2g} times the fastest" if own > fast else f"{own / slow:.2g} times the slowest"
+            yield (
+                f"{record.name}: its input moves at {times} fitted record's speed; where the device knows a rate, the "
+                f"interval need not hold."
+            )
+
+    def as_dict(self) -> dict[str, Any]:
+        """For model.json."""
+        return {
+            "half_widths": {str(level): half for level, half in self.half_widths.items()},
+            "records": self.records,
+            "speeds": list(self.speeds),
+        }
+
+
+def interval_of(content: Any) -> Interval | None:
+    """From model.json, which may have none. Raises KeyError, TypeError or ValueError where it is wrong."""
+    if content is None:
+        return None
+    halves = value_of(content, "half_widths", dict)
+    slow, fast = value_of(content, "speeds", list)
+    widths = {level: number_of(halves, str(level)) for level in LEVELS}
+    return Interval(widths, value_of(content, "records", int), (float(slow), float(fast)))
+
+
+def interval(problem: Problem, values: Array, held_out: Sequence[Record]) -> Interval:
+    """Of a fit; values : (dimension,), in units;  held_out : records that it has not seen."""
+    records = problem.records
+    point = np.clip(problem.space.to_unit(values[:, None])[:, 0], 0.0, 1.0)
+    alone = len(records) == 1
+    left = left_out_errors(problem, point, cut(records)) if alone else unseen_errors(problem, point)
+    column = values[:, None]
+    new = [problem.system.respond(record, column)[record.scored, 0] - record.measured for record in held_out]
+    errors = [*split(left, records), *new]
+    widths = {level: max(float(np.quantile(np.abs(one), level / 100.0)) for one in errors) for level in LEVELS}
+    speeds = [speed(record) for record in records]
+    return Interval(widths, len(errors) - alone, (min(speeds), max(speeds)))
+
+
+def speed(record: Record) -> float:
+    """RMS rate of the scored input, its unit per unit of time."""
+    time, driven = record.time[record.scored], record.input[record.scored]
+    return float(np.sqrt(np.mean((np.diff(driven) / np.diff(time)) ** 2))) if time.size > 1 else 0.0
