@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.findings.conclude import conclude
@@ -57,10 +58,14 @@ def _diagnosed(dataset: Dataset, question: Question) -> Diagnosis:
 def _promising(laws: Comparison, several: bool) -> list[str]:
     """The chosen law, and those that predict best beside it; of a lone record the former only, as its blocks cannot
     judge between laws."""
-    ranked = [law for law in laws.table.dropna(subset="unseen")["law"] if law not in (BASELINE, laws.chosen)]
-    if not (laws.chosen or ranked):
+    fitted = [law for law in laws.table.dropna(subset="unseen")["law"] if law != BASELINE]
+    if not fitted:
         raise UserError("diagnose", f"no law can be fitted to these records. {laws.words}")
-    return [*([laws.chosen] if laws.chosen else []), *ranked][: PURSUED if several else 1]
+    ranked = sorted(fitted, key=lambda law: law != laws.chosen)
+    few = [
+        law for law in ranked if not registry.build("models", law, {}).smooth
+    ]  # effects would be lost among the rest
+    return (few or ranked)[: PURSUED if several else 1]
 
 
 def _told(best: Diagnosis, found: list[Diagnosis], laws: Comparison) -> str:
