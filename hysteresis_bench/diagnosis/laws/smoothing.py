@@ -17,7 +17,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.blocks import Blocks
-from hysteresis_bench.diagnosis.laws.left_out import LeftOut
+from hysteresis_bench.diagnosis.laws.left_out import SMOOTHER, LeftOut
 from hysteresis_bench.fit.objective import Problem
 
 SCREENED, STEPS = 12, 40
@@ -67,7 +67,7 @@ class Smoothing:
         for share in np.linspace(1.0, point[-1], WEIGHTS, endpoint=False):
             smoother = np.append(point[:-1], share)
             errors = self._predicted(smoother, out.blocks)
-            if out.as_good(best, errors):
+            if out.as_good(best, errors, SMOOTHER):
                 point = smoother
                 break
         else:
