@@ -29,10 +29,11 @@ def choose(laws: Sequence[Law], without: Array, out: LeftOut) -> tuple[str, str]
         chosen = min(as_good, key=_simplest)
         why = "the paired test over blocks cannot tell them apart"
     else:
-        chosen = min(as_good, key=_safest)
+        # as smooth as is near, a density is the simplest of its kind already
+        chosen = best if _built(best).smooth else min(as_good, key=_safest)
         why = (
-            "so few excitations cannot show how a law predicts another one, so that of the laws that are near one with "
-            "return-point memory is taken, a smooth density before others, and then the simplest"
+            "so few excitations cannot show how a law predicts another one, so that of the laws that are near the "
+            "simplest with return-point memory is taken"
         )
     if chosen is best:
         return best.model, f"{told}."
@@ -46,8 +47,11 @@ def _simplest(law: Law) -> tuple[int, float]:
     return law.parameters, law.rmse
 
 
-def _safest(law: Law) -> tuple[bool, bool, int, float]:
-    """Inner loops of most devices return to where they left; a formula has inner loops of its own even where no data
-    speak of them, and a density that is as smooth as the data allow has not."""
+def _safest(law: Law) -> tuple[bool, int, float]:
+    """Inner loops of most devices return to where they left, whatever the data show of it."""
+    return "return-point" not in _built(law).properties, *_simplest(law)
+
+
+def _built(law: Law) -> Model:
     model: Model = registry.build("models", law.model, {})
-    return "return-point" not in model.properties, not model.smooth, *_simplest(law)
+    return model
