@@ -3,8 +3,8 @@
     python benchmarks/laws.py [NAME ...] [--out results/measured-laws]
 
 Looks for the data in the folder that HYSTERESIS_DATA names, or in ../shared/data beside the checkout. The splits are
-those below, fixed before any law was fitted: the last third of a lone record, or the runs named. What it keeps is
-derived: a row a device and law. Devices that are there already are kept; name one to compare it again.
+those of devices.py, fixed before any law was fitted: the last third of a lone record, or the runs named. It keeps
+what is derived: a row a device and law. Devices that are there already are kept; name one to compare it again.
 """
 
 from __future__ import annotations
@@ -12,133 +12,25 @@ from __future__ import annotations
 import argparse
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
+from devices import DEVICES, Device, records_of
 from real_measurements import DATA, ROOT
 
-from hysteresis_bench import compare, load
+from hysteresis_bench import compare
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE
-from hysteresis_bench.diagnosis.preparation import with_held_out
-from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.signals import Dataset
 
 NUMBERS = "laws.csv"
 SUMMARY = ROOT / "results" / "real-measurements" / "laws.csv"
-FEW = 40
-"""Scored samples below which a run is left out, such as the first of reversal curves."""
-
-
-PLAIN, SETTLED = DiagnosisOptions(), DiagnosisOptions(settle=True)
-
-
-@dataclass(frozen=True)
-class Device:
-    """units : of time (sample: only an index), input and output;  held_out : names of runs, the last third where empty
-    third : every third run is held out;  stride : every so manieth sample is kept
-    """
-
-    name: str
-    files: tuple[str, ...]
-    units: tuple[str, str, str]
-    held_out: tuple[str, ...] = ()
-    third: bool = False
-    stride: int = 1
-    options: DiagnosisOptions = PLAIN
-
-
-def _in(folder: str, *names: str) -> tuple[str, ...]:
-    return tuple(f"{folder}/{name}.csv" for name in names)
-
-
-BRFD = "sine_0p25Hz_band30lb_amp"
-DEVICES = (
-    Device(
-        "piezo stack, full amplitude from a modulated record",
-        _in("piezo-picma-ntu", "full_amplitude_1Hz", "modulated_1Hz_ramp_down"),
-        ("s", "V", "um"),
-        ("full_amplitude_1Hz",),
-        options=DiagnosisOptions(skip=0.5),
-    ),
-    Device(
-        "PZT film, 700 Hz",
-        _in("ferroelectric-pzt-film-a", "frequency_loops_8V"),
-        ("s", "V", "C/m^2"),
-        ("frequency_loops_8V:4",),
-        options=SETTLED,
-    ),
-    Device(
-        "FeFET stack, 700 Hz",
-        _in("ferroelectric-fefet-stack", "frequency_loops_5V"),
-        ("s", "V", "C/m^2"),
-        ("frequency_loops_5V:4",),
-        options=SETTLED,
-    ),
-    Device(
-        "HfO2 film, 700 Hz",
-        _in("ferroelectric-hfo2-film", "frequency_loops_4V"),
-        ("s", "V", "C/m^2"),
-        ("frequency_loops_4V:4",),
-        options=SETTLED,
-    ),
-    Device(
-        "FeCo reversal curves", _in("forc-feco-nanowires", "forc"), ("sample", "A/m", "A m^2"), third=True, stride=2
-    ),
-    Device("rock reversal curves", _in("forc-rock-agm", "forc"), ("sample", "A/m", "A m^2"), third=True),
-    Device(
-        "electrical steel, one loop",
-        _in("magcore-go-steel-m130", "loops"),
-        ("sample", "A/m", "T"),
-        ("loops:1",),
-        options=SETTLED,
-    ),
-    Device(
-        "Mn-Zn ferrite, one loop",
-        _in("magcore-mnzn-ferrite", "loops"),
-        ("sample", "A/m", "T"),
-        ("loops:1",),
-        options=SETTLED,
-    ),
-    Device(
-        "friction damper, 12.7 mm from 38.1 mm",
-        _in("friction-damper-brfd", f"{BRFD}12p7mm", f"{BRFD}38p1mm"),
-        ("s", "m", "N"),
-        (f"{BRFD}12p7mm",),
-    ),
-    Device("steel coupon S355, growing cycles", _in("steel-coupon-rlmtp", "s355_c12_growing_cycles"), ("s", "1", "Pa")),
-    Device("steel coupon S355J2", _in("steel-coupon-resslab", "example_1"), ("sample", "1", "Pa")),
-    Device("MR damper, 0.87 V", _in("mr-damper-utfpr", "sine_runs_0p87V"), ("s", "m", "N"), third=True, stride=2),
-    Device("pneumatic cylinder, O-ring, 1 bar", _in("pneumatic-friction-tud", "oring_1bar"), ("s", "m", "N")),
-    Device("timber wall", _in("clt-wall-actuator", "trial2"), ("sample", "m", "N")),
-    Device("rocking wall", _in("rocking-wall-ts1", "ts1_cyclic"), ("sample", "m", "N")),
-    Device("battery electrode", _in("battery-ocv-silicon-graphite", "half_cell_0C02"), ("s", "1", "V")),
-    Device("Bouc-Wen benchmark (synthetic)", _in("boucwen-benchmark", "train_multisine"), ("s", "N", "m")),
-    Device(
-        "linear capacitor, 700 Hz",
-        _in("linear-capacitor-reference", "frequency_loops_3V"),
-        ("s", "V", "C/m^2"),
-        ("frequency_loops_3V:4",),
-    ),
-)
-
-
-def records_of(device: Device) -> Dataset:
-    """As `compare` gets them."""
-    records = load(*(DATA / file for file in device.files)).records
-    units = dict(zip(("time", "input", "output"), device.units, strict=True))
-    kept = [replace(r, units=units) for r in records if r.measured.size >= FEW]
-    if device.stride > 1:
-        kept = [record.take(slice(None, None, device.stride)) for record in kept]
-    held_out = tuple(record.name for record in kept[1::3]) if device.third else device.held_out
-    return with_held_out(Dataset(tuple(kept), held_out))[0]
 
 
 def compared(device: Device) -> pd.DataFrame:
     begun = time.time()
     dataset = records_of(device)
-    found = compare(dataset, options=device.options)
+    found = compare(dataset, device.laws, device.effects, options=replace(device.options, jobs=1))
     span = max(float(r.measured.max() - r.measured.min()) for r in dataset.held_out)
     told = {"device": device.name, "unit": device.units[2], "chosen": found.chosen, "floor": found.floor, "span": span}
     print(f"{device.name}: {found.words} ({time.time() - begun:.0f} s)", flush=True)
@@ -163,10 +55,14 @@ def kept(rows: pd.DataFrame) -> pd.DataFrame:
     for device in DEVICES:
         part = rows[rows["device"] == device.name].set_index("law") if len(rows) else rows
         row = {"device": device.name, "unit": device.units[2], "run": "yes" if len(part) else "not run"}
+        row |= {"compared": len(device.laws) or "all", "effects": " ".join(device.effects), "repeats": device.repeats}
         if len(part):
             law = part["chosen"].iloc[0] or BASELINE
-            errors = {"held_out": part.loc[law, "held_out"], "polynomial": part.loc[BASELINE, "held_out"]}
-            row |= {"law": law, **errors, "floor": part["floor"].iloc[0], "range": part["span"].iloc[0]}
+            error, plain = float(part.loc[law, "held_out"]), float(part.loc[BASELINE, "held_out"])
+            span = float(part["span"].iloc[0])
+            asked = device.asked * (span if device.share else 1.0) if device.asked else None
+            row |= {"law": law, "held_out": error, "polynomial": plain, "ratio": error / plain, "asked": asked}
+            row |= {"floor": part["floor"].iloc[0], "range": span}
         found.append(row)
     return pd.DataFrame(found)
 

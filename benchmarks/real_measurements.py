@@ -18,6 +18,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import measured_page
 import numpy as np
 
 from hysteresis_bench import load
@@ -32,7 +33,8 @@ from hysteresis_bench.signals import Dataset, Record
 
 ROOT = Path(__file__).parent.parent
 DATA = Path(os.environ.get("HYSTERESIS_DATA", ROOT.parent / "shared" / "data"))
-NUMBERS, STEPS, PAGE = "numbers.csv", "steps.csv", "report.html"
+NUMBERS, STEPS, LAWS, PAGE = "numbers.csv", "steps.csv", "laws.csv", "report.html"
+BEFORE_LAWS = "What one model that was given lacks, as a diagnosis says that does not look for the law."
 
 
 @dataclass(frozen=True)
@@ -270,20 +272,26 @@ def write(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
 
 def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mapping[str, str]]) -> Path:
     """Write report.html from the numbers kept."""
+    laws = measured_page.read(folder / LAWS) if (folder / LAWS).is_file() else None
     parts = []
     for one in rows:
         case = next((case for case in CASES if case.name == one["case"]), None)
         if case is not None:
             parts.append(_section(folder, case, one, [step for step in steps if step["case"] == case.name]))
     how = (
-        "By benchmarks/real_measurements.py. The measurements are not part of the project; only what is derived from "
-        "them is kept here."
+        "By benchmarks/laws.py and benchmarks/real_measurements.py. The measurements are not part of the project; only "
+        "what is derived from them is kept here."
     )
-    made = Section(
-        "made", "How it was made", [how, files_beside({NUMBERS: "a row a case", STEPS: "error step by step"})]
-    )
-    sections = [Section("summary", "", [_summary(rows)]), *parts, made]
-    return Page("Diagnosis of real measurements", f"{len(parts)} devices and questions", sections).write(folder / PAGE)
+    beside = {LAWS: "a row a device"} if laws is not None else {}
+    beside |= {NUMBERS: "a row a diagnosis", STEPS: "error step by step"}
+    made = Section("made", "How it was made", [how, files_beside(beside)])
+    diagnoses = Section("summary", "Diagnoses of one given model", [BEFORE_LAWS, _summary(rows)])
+    sections = [diagnoses, *parts, made]
+    if laws is None:
+        return Page("Diagnosis of real measurements", f"{len(parts)} questions", sections).write(folder / PAGE)
+    sections = [measured_page.section(folder, laws), *sections]
+    kicker = "Laws and diagnoses of measured devices"
+    return Page("Real measurements", kicker, sections, measured_page.answer(laws)).write(folder / PAGE)
 
 
 def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[Mapping[str, str]]) -> Section:

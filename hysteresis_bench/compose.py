@@ -39,7 +39,7 @@ class System:
     @property
     def linear(self) -> tuple[str, ...]:
         """Free parameters in which the output is jointly affine."""
-        names = () if self._inside else self.model.linear
+        names = self.model.linear
         for name, effect in self.effects:
             outer = tuple(f"{name}.{parameter}" for parameter in effect.linear)
             names = (*names, *outer) if effect.affine else ()

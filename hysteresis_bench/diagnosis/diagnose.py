@@ -82,10 +82,14 @@ def _in_mid_loop(spare: Sequence[str]) -> str:
 def _promising(laws: Comparison, several: bool) -> list[str]:
     """The chosen law, and those that predict best beside it; of a lone record the former only, as its blocks cannot
     judge between laws."""
-    ranked = [law for law in laws.table.dropna(subset="unseen")["law"] if law not in (BASELINE, laws.chosen)]
-    if not (laws.chosen or ranked):
+    fitted = [law for law in laws.table.dropna(subset="unseen")["law"] if law != BASELINE]
+    if not fitted:
         raise UserError("diagnose", f"no law can be fitted to these records. {laws.words}")
-    return [*([laws.chosen] if laws.chosen else []), *ranked][: PURSUED if several else 1]
+    ranked = sorted(fitted, key=lambda law: law != laws.chosen)
+    few = [
+        law for law in ranked if not registry.build("models", law, {}).smooth
+    ]  # effects would be lost among the rest
+    return (few or ranked)[: PURSUED if several else 1]
 
 
 def _told(best: Diagnosis, found: list[Diagnosis], laws: Comparison) -> str:

@@ -48,8 +48,8 @@ LAWS = {
     },
     "oscillator": {**MASS, "alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},
     "preisach-hats": {
-        "radius": 2.0, "centre": 0.2, "reach": 2.0, "slope": 0.3,
-        **{f"w{k}_{j}": 0.02 * (1 + (3 * k + 5 * j) % 7) for k in range(9) for j in range(1, 13)},
+        "radius": 2.0, "centre": 0.2, "grading": 1.5, "slope": 0.3,
+        **{f"w{k}_{j}": 0.02 * (1 + (3 * k + 5 * j) % 7) for k in range(9) for j in range(1, 17)},
     },
 }  # fmt: skip
 EFFECTS = {

@@ -114,9 +114,9 @@ def test_thresholds_grow_with_the_frequency():
 def test_a_density_is_read_off_reversal_curves():
     law = PreisachHats(plays=2, pieces=3)
     rng = np.random.default_rng(5)
-    truth = {"radius": 0.6, "centre": 0.1, "reach": 1.0, **{name: rng.random() for name in law.linear}}
+    truth = {"radius": 0.9, "centre": 0.1, "grading": 1.0, **{name: rng.random() for name in law.linear}}
     one = record(law, waves(1.6, centre=0.1), **truth)
-    found = solved(law, one, **{name: truth[name] for name in ("radius", "centre", "reach")})
+    found = solved(law, one, **{name: truth[name] for name in ("radius", "centre", "grading")})
     np.testing.assert_allclose([found[name] for name in law.linear], [truth[name] for name in law.linear], rtol=1e-6)
     assert not held(law, [one], truth)
 

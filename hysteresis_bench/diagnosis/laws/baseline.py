@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.signals import Record
 
 DEGREE = 3
@@ -33,22 +34,24 @@ class Polynomial:
         return powers
 
 
-def polynomial(records: Sequence[Record]) -> Polynomial:
-    """Least squares over the scored samples of all records."""
+def polynomial(records: Sequence[Record], counts: Array | None = None) -> Polynomial:
+    """Least squares over the scored samples of all records; counts : (scored samples,), false where one is left out."""
     low = min(float(np.min(record.input[record.scored])) for record in records)
     high = max(float(np.max(record.input[record.scored])) for record in records)
     empty = Polynomial(np.zeros(DEGREE), 0.5 * (low + high), 0.5 * (high - low) or 1.0)
     powers = [empty._powers(record) for record in records]
     columns = np.concatenate([part - part.mean(axis=0) for part in powers])
     target = np.concatenate([record.measured - np.mean(record.measured) for record in records])
-    solution = np.linalg.lstsq(columns, target, rcond=None)[0]
+    kept = slice(None) if counts is None else counts
+    solution = np.linalg.lstsq(columns[kept], target[kept], rcond=None)[0]
     return Polynomial(solution, empty.centre, empty.half_span)
 
 
-def baseline_errors(records: Sequence[Record]) -> Array:
-    """Errors of all records, (scored samples,), each predicted by the polynomial of the others; of a lone record its
-    own fit's."""
-    if len(records) == 1:
-        return polynomial(records).errors(records[0])
-    others = [[other for other in records if other is not record] for record in records]
-    return np.concatenate([polynomial(rest).errors(record) for rest, record in zip(others, records, strict=True)])
+def baseline_errors(records: Sequence[Record], blocks: Blocks) -> Array:
+    """Errors (scored samples,) of every sample by the polynomial of those that are not left out with it."""
+    found = np.empty(blocks.fold.size)
+    for fold in range(blocks.folds):
+        out = blocks.fold == fold
+        plain = polynomial(records, ~out)
+        found[out] = np.concatenate([plain.errors(record) for record in records])[out]
+    return found

@@ -6,23 +6,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
+from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.laws.law import Law
-from hysteresis_bench.fit.unseen.left_out import cut
-from hysteresis_bench.signals import Record
-
-ALONE = 2.0
-"""Blocks left out of a lone record have its own amplitude, so that a richer law wins them and may yet fail at another
-one. There the law of the fewest parameters is taken whose error is at most so many times the best one's. With 1 it is
-the richest of the measured devices' laws, and its error at another amplitude two to three times as large (piezo stack,
-friction damper, electrical steel); with 4 laws are taken that miss the shape of the loop."""
+from hysteresis_bench.diagnosis.laws.left_out import LeftOut
 
 
-def choose(laws: Sequence[Law], without: Array, records: Sequence[Record]) -> tuple[str, str]:
+def choose(laws: Sequence[Law], without: Array, out: LeftOut) -> tuple[str, str]:
     """The law's name, and a sentence; the name is "" where no law beats the polynomial.
 
-    laws : the best first;  without : errors of the polynomial without memory, as `Law.unseen`;  records : fitted ones
+    laws : the best first;  without : errors of the polynomial without memory, as `Law.unseen`;  out : what was left out
     """
     fitted = [law for law in laws if law.unseen.size]
     plain = float(np.sqrt(np.mean(without**2)))
@@ -30,14 +24,17 @@ def choose(laws: Sequence[Law], without: Array, records: Sequence[Record]) -> tu
         return "", "No law predicts what it did not see better than a cubic polynomial of the input, without memory."
     best = fitted[0]
     told = f"{best.model} predicts best what it did not see: {best.rmse / plain:.3g} of the polynomial's error"
-    if len(records) == 1:
-        chosen = min((law for law in fitted if law.rmse <= ALONE * best.rmse), key=_simplest)
-        why = "one record cannot show how a law predicts another excitation, so that the simplest is taken that is near"
-    else:
-        blocks = cut(records)
-        as_good = [law for law in fitted if law is best or advantage(best.unseen, law.unseen, blocks) < CLEAR]
+    as_good = [law for law in fitted if law is best or out.as_good(best.unseen, law.unseen)]
+    if out.telling:
         chosen = min(as_good, key=_simplest)
         why = "the paired test over blocks cannot tell them apart"
+    else:
+        # as smooth as is near, a density is the simplest of its kind already
+        chosen = best if _built(best).smooth else min(as_good, key=_safest)
+        why = (
+            "so few excitations cannot show how a law predicts another one, so that of the laws that are near the "
+            "simplest with return-point memory is taken"
+        )
     if chosen is best:
         return best.model, f"{told}."
     return chosen.model, (
@@ -48,3 +45,13 @@ def choose(laws: Sequence[Law], without: Array, records: Sequence[Record]) -> tu
 
 def _simplest(law: Law) -> tuple[int, float]:
     return law.parameters, law.rmse
+
+
+def _safest(law: Law) -> tuple[bool, int, float]:
+    """Inner loops of most devices return to where they left, whatever the data show of it."""
+    return "return-point" not in _built(law).properties, *_simplest(law)
+
+
+def _built(law: Law) -> Model:
+    model: Model = registry.build("models", law.model, {})
+    return model

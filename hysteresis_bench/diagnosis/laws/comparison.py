@@ -18,9 +18,10 @@ from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.choice import ALONE, choose
+from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
+from hysteresis_bench.diagnosis.laws.left_out import ALONE, left_out
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
@@ -72,20 +73,20 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
     thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
     asked = views_of(thin.records)
-    found = structure(asked)
+    found, out = structure(asked), left_out(thin.records)
     names, reasons = tuple(options.laws), dict[str, str]()
     if not names:
         names = registry.names("models")
         # branches of the data's own, judged on what they were not fitted to, do about as well as the best law
-        reachable = max(floor, memory(asked).branch_rmse) * (ALONE if len(asked) == 1 else 1.0)
+        reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else ALONE)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](thin, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
-    without = baseline_errors(thin.records)
-    chosen, words = choose(laws, without, thin.records)
+    without = baseline_errors(thin.records, out.blocks)
+    chosen, words = choose(laws, without, out)
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."

@@ -10,11 +10,17 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.laws.left_out import left_out
+from hysteresis_bench.diagnosis.laws.smoothing import Smoothing
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.fit.least_squares import point_of
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.left_out import FURTHER, left_out_errors
 from hysteresis_bench.signals import Dataset, Record
 
 
@@ -22,8 +28,8 @@ from hysteresis_bench.signals import Dataset, Record
 class Law:
     """A model as the law of some records.
 
-    unseen : (scored samples of the thinned records,) errors of every fitted record by a fit to the others, or, of a
-    lone record, of blocks left out of it
+    unseen : (scored samples of the thinned records,) errors of what was left out, by a fit to the rest
+    parameters : how many, effectively where they are smooth
     fitted, held_out : RMSE over all samples, unit of the output; NaN where there are none
     seconds : CPU time;  reason : why there is no fit, "" where there is one
     """
@@ -67,26 +73,39 @@ class Laws:
         fitter = self.fitter(name, self.records)
         if reasons := self._reasons(fitter):
             return Law(name, " ".join(reasons))
+        problem = fitter.stack.problem({registry.RECORD_OFFSET})
+        if problem.system.model.smooth:
+            return self._smoothed(name, problem, begun)
         found = fitter.bare(frozenset({registry.RECORD_OFFSET}))
-        problem = fitter.stack.problem(found.names)
         count = problem.space.dimension
         if found.rmse >= 0.999 * _spread(self.records):
             return Law(name, "it follows these records no better than a constant.", parameters=count)
-        unseen = fitter.unseen(found)
+        unseen = left_out_errors(problem, point_of(problem, found.values), left_out(self.records).blocks, FURTHER)
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
+        return Law(name, "", *self._errors(system, values), unseen, count, time.process_time() - begun)
+
+    def _smoothed(self, name: str, problem: Problem, begun: float) -> Law:
+        """A law of many linear parameters, as smooth as predicts best."""
+        found = Smoothing(problem).searched(left_out(self.records))
+        full = self.fitter(name, self.dataset.fitted).stack.problem({registry.RECORD_OFFSET})
+        errors = self._errors(full.system, Smoothing(full).refitted(found))
+        return Law(name, "", *errors, found.left_out, round(found.freedom), time.process_time() - begun)
+
+    def _errors(self, system: System, values: Array) -> tuple[float, float]:
+        """RMSE over all samples of the fitted and of the held-out records; NaN where there are none."""
         fitted, held_out = (
             accuracy(system, records, values).rmse if records else np.nan
             for records in (self.dataset.fitted, self.dataset.held_out)
         )
-        return Law(name, "", fitted, held_out, unseen, count, time.process_time() - begun)
+        return fitted, held_out
 
     def _reasons(self, fitter: Fitter) -> list[str]:
         system = fitter.stack.system(())
         reasons = [f"{name}: {why}" for name, effect in system.effects if (why := effect.inapplicable(self.records))]
         samples = sum(record.measured.size for record in self.records)
         count = len(system.parameters)
-        if samples <= 2 * count:
+        if samples <= 2 * count and not system.model.smooth:
             reasons.append(f"{samples} samples are too few for its {count} parameters.")
         return reasons or broken_promises(system, self.records)
 

@@ -6,6 +6,7 @@ Constants: plays, pieces, slope, the half-widths, the nodes, the weights, play b
 from __future__ import annotations
 
 from collections.abc import Mapping
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -33,8 +34,8 @@ def law(s: Array, p: Array, t: float, u: float) -> float:
 
 
 def part(model: Any, p: Mapping[str, float], timed: bool) -> Part:
-    radii = np.arange(model.plays + 1) * (p["radius"] / model.plays)
-    nodes = p["centre"] + model._nodes * p["reach"]
+    shape = {name: np.array([p[name]]) for name in ("radius", "centre", "grading")}
+    radii, nodes = (cells[:, 0] for cells in model.cells(SimpleNamespace(**shape)))
     weights = [p[name] for name in model.linear[1:]]
     first = (float(model.plays + 1), float(model.pieces), p["slope"])
     return Part((*first, *map(float, radii), *map(float, nodes), *weights), state=model.plays + 2)

@@ -15,7 +15,9 @@ from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import motionless, without_time
 
 WIDEST = 0.9
-"""Largest change of a threshold, as a share of it, in the box."""
+"""Largest fall of a threshold, as a share of it, in the box."""
+STEEPEST = 10.0
+"""Largest rise of a threshold in the box: all but none of it is left at one cycle a unit of time."""
 NARROWEST = 0.01
 """A threshold does not shrink below this share of it."""
 
@@ -53,6 +55,7 @@ class ThresholdRate(Effect):
 
     acts = "law"
     family = "law"
+    affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "input-lag": "both make the loop wider with the frequency",
         "transport-delay": "both make the loop wider with the frequency",
@@ -65,9 +68,14 @@ class ThresholdRate(Effect):
         return inner(signal)  # the model has applied it
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """What changes no record's thresholds by more than nine tenths."""
-        most = WIDEST / max(1.0, *(abs(_logarithm(record)) for record in records))
-        return (self.parameters[0].within(-most, most),)
+        """What lowers no record's thresholds by more than nine tenths, and raises them up to ten times: what they are
+        at one cycle a unit of time may be far from every record."""
+        found = [_logarithm(record) for record in records]
+        above, below = max(1.0, max(found)), max(1.0, -min(found))
+        far = max(above, below)
+        lower = -WIDEST / above if max(found) > 0.0 else -STEEPEST / far
+        upper = WIDEST / below if min(found) < 0.0 else STEEPEST / far
+        return (self.parameters[0].within(lower, upper),)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         if reason := without_time(records) or motionless(records):

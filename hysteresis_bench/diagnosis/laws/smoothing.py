@@ -1,0 +1,179 @@
+"""Laws of many linear parameters: the least squares of a smooth one, how smooth being what predicts best.
+
+|A x - b|² + weight |R x|² is the least [1] for x inside its bounds, R the law's roughness; the weight, and the few
+parameters that are not linear, are those whose law predicts best what was left out of the fit.
+
+[1] P. H. C. Eilers, B. D. Marx, Statistical Science 11 (1996) 89; C. L. Lawson, R. J. Hanson, Solving Least Squares
+    Problems, Prentice-Hall (1974), chapter 23, for the bounds.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from types import SimpleNamespace
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.laws.left_out import SMOOTHER, LeftOut
+from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.blocks import Blocks
+
+SCREENED, STEPS = 12, 40
+"""Points of the parameters that are not linear, and steps downhill from the best of them."""
+LIGHTEST, HEAVIEST = -7.0, 1.0
+"""Powers of ten between which the weight lies, as a share of what makes both terms alike."""
+WEIGHTS = 25
+"""Of them, tried from the heaviest one down."""
+RIDGE = 1e-10
+"""Share of the diagonal that keeps every system definite."""
+
+
+@dataclass(frozen=True, eq=False)
+class Smoothed:
+    """values : (dimension,) in units;  left_out : (scored samples,) errors by the fit that did not count them
+    weight : of the roughness, as a power of ten;  freedom : effective number of parameters
+    """
+
+    values: Array
+    left_out: Array
+    weight: float
+    freedom: float
+
+
+@dataclass(frozen=True, eq=False)
+class Smoothing:
+    """problem : of a model with a roughness, and of effects around it."""
+
+    problem: Problem
+
+    def searched(self, out: LeftOut) -> Smoothed:
+        """The smoothest law that predicts as well as the best one, as far as what is left out can say so."""
+        from scipy.optimize import minimize
+        from scipy.stats.qmc import Halton
+
+        dimension = len(self._others) + 1
+
+        def left(point: Array) -> float:
+            return _rms(self._predicted(np.clip(point, 0.0, 1.0), out.blocks))
+
+        points = Halton(dimension, scramble=False).random(SCREENED + 1)[1:]
+        first = points[int(np.argmin([left(point) for point in points]))]
+        options = {"maxfev": STEPS, "xatol": 1e-3, "fatol": 1e-4 * left(first)}
+        found = minimize(left, first, method="Nelder-Mead", bounds=[(0.0, 1.0)] * dimension, options=options)
+        point = np.clip(found.x, 0.0, 1.0)
+        errors = best = self._predicted(point, out.blocks)
+        for share in np.linspace(1.0, point[-1], WEIGHTS, endpoint=False):
+            smoother = np.append(point[:-1], share)
+            errors = self._predicted(smoother, out.blocks)
+            if out.as_good(best, errors, SMOOTHER):
+                point = smoother
+                break
+        else:
+            errors = best
+        values, freedom = self._solved(point)
+        return Smoothed(values, errors, self._power(point), freedom)
+
+    def refitted(self, known: Smoothed) -> Array:
+        """Values (dimension,) in units, of the same smoothness, for this problem's records."""
+        point = self.problem.space.to_unit(known.values[:, None])[self._others, 0]
+        share = (known.weight - LIGHTEST) / (HEAVIEST - LIGHTEST)
+        return self._solved(np.append(point, share))[0]
+
+    def _power(self, point: Array) -> float:
+        return float(LIGHTEST + point[-1] * (HEAVIEST - LIGHTEST))
+
+    def _predicted(self, point: Array, blocks: Blocks) -> Array:
+        columns, target = self._columns(point)
+        normal, descent, penalty = columns.T @ columns, columns.T @ target, self._penalty(point, columns)
+        errors = np.empty(target.size)
+        for fold in range(blocks.folds):
+            out = blocks.fold == fold
+            part, aim = columns[out], target[out]
+            errors[out] = aim - part @ self._least(normal - part.T @ part, descent - part.T @ aim, penalty)
+        return errors
+
+    def _solved(self, point: Array) -> tuple[Array, float]:
+        """Values (dimension,) in units, and the effective number of parameters."""
+        columns, target = self._columns(point)
+        normal, penalty = columns.T @ columns, self._penalty(point, columns)
+        found = self._least(normal, columns.T @ target, penalty)
+        free = np.flatnonzero((found > self._low) & (found < self._high))
+        one, all_ = (matrix[np.ix_(free, free)] for matrix in (normal, normal + penalty))
+        ridge = RIDGE * np.diag(np.diag(all_) + np.finfo(float).tiny)
+        freedom = float(np.trace(np.linalg.solve(all_ + ridge, one))) + len(self._others)
+        values = self._values(point)[:, 0]
+        values[self._rows] = found
+        return values, freedom
+
+    def _columns(self, point: Array) -> tuple[Array, Array]:
+        """What each linear parameter answers for, (scored samples, linear), and what they have to explain."""
+        count = len(self._rows)
+        values = np.repeat(self._values(point), count + 1, axis=1)
+        values[self._rows] = 0.0
+        values[self._rows, range(1, count + 1)] = self._units
+        found = self.problem.residuals(self.problem.space.to_unit(values))
+        return (found[:, 1:] - found[:, :1]) / self._units, -found[:, 0]
+
+    def _penalty(self, point: Array, columns: Array) -> Array:
+        """Weighted square of the roughness, (linear, linear)."""
+        model, names = self.problem.system.model, self.problem.space.names
+        rough: Array = model.roughness(SimpleNamespace(**dict(zip(names, self._values(point), strict=True))))
+        square = np.zeros((len(self._rows), len(self._rows)))
+        own = [self._rows.index(names.index(name)) for name in model.linear]
+        square[np.ix_(own, own)] = rough.T @ rough
+        alike = np.sum(columns[:, own] ** 2) / max(np.trace(square), np.finfo(float).tiny)
+        return np.asarray(10.0 ** self._power(point) * alike * square)
+
+    def _least(self, normal: Array, descent: Array, penalty: Array) -> Array:
+        """The least of x normal x / 2 - descent x + x penalty x / 2 with x on its side of 0, (linear,)."""
+        from scipy.optimize import nnls
+
+        matrix, right = (normal + penalty) * np.outer(self._signs, self._signs), descent * self._signs
+        size = np.sqrt(np.diag(matrix) + np.finfo(float).tiny)
+        matrix = matrix / np.outer(size, size) + RIDGE * np.eye(size.size)
+        root = np.linalg.cholesky(matrix)
+        free = np.flatnonzero((self._low < 0.0) & (self._high > 0.0))
+        both = np.concatenate([root.T, -root.T[:, free]], axis=1)
+        found, _ = nnls(both, np.linalg.solve(root, right / size), maxiter=100 * size.size)
+        found[free] -= found[size.size :]
+        least: Array = np.clip(found[: size.size] / size * self._signs, self._low, self._high)
+        return least
+
+    def _values(self, point: Array) -> Array:
+        """(dimension, 1) in units, the linear ones 0; point : the others in the unit box, and the weight."""
+        unit = np.zeros((self.problem.space.dimension, 1))
+        unit[self._others, 0] = point[:-1]
+        values = self.problem.space.from_unit(unit)
+        values[self._rows] = 0.0
+        return values
+
+    @cached_property
+    def _rows(self) -> list[int]:
+        return list(self.problem.linear)
+
+    @cached_property
+    def _others(self) -> list[int]:
+        return [row for row in range(self.problem.space.dimension) if row not in self.problem.linear]
+
+    @cached_property
+    def _low(self) -> Array:
+        return np.array([self.problem.space.parameters[row].lower for row in self._rows])
+
+    @cached_property
+    def _high(self) -> Array:
+        return np.array([self.problem.space.parameters[row].upper for row in self._rows])
+
+    @cached_property
+    def _units(self) -> Array:
+        """A step of each that stays inside its box."""
+        return np.where(self._high > 0.0, self._high, self._low)
+
+    @cached_property
+    def _signs(self) -> Array:
+        return np.where(self._high > 0.0, 1.0, -1.0)
+
+
+def _rms(errors: Array) -> float:
+    return float(np.sqrt(np.mean(errors**2)))

@@ -1,0 +1,39 @@
+"""What is left out to judge a law: excitations within the range of the others, blocks of those that go further."""
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.diagnosis.laws.left_out import left_out
+from hysteresis_bench.signals import Record
+
+TIME = np.linspace(0.0, 6.0, 1200)
+
+
+def record(amplitude, name: str) -> Record:
+    u = amplitude * np.sin(2.0 * np.pi * 2.0 * TIME)
+    return Record(TIME, u, u, name=name)
+
+
+def test_of_nested_amplitudes_the_smaller_ones_are_left_out_whole():
+    records = [record(amplitude, str(amplitude)) for amplitude in (1.0, 8.0, 2.0, 4.0)]
+    found = left_out(records)
+    folds = np.split(found.blocks.fold, 4)
+    assert [np.unique(part).size for part in folds] == [1, 4, 1, 1]
+    assert len({int(part[0]) for part in (folds[0], folds[2], folds[3])}) == 3
+    assert found.telling
+
+
+def test_one_smaller_amplitude_is_too_few_to_tell():
+    assert not left_out([record(1.0, "small"), record(8.0, "large")]).telling
+
+
+@pytest.mark.parametrize(("amplitude", "telling"), [(2.0, False), (np.linspace(2.0, 0.2, TIME.size), True)])
+def test_a_lone_record_tells_of_other_amplitudes_only_where_it_has_some(amplitude, telling):
+    assert left_out([record(amplitude, "alone")]).telling == telling
+
+
+def test_a_lone_loop_is_cut_into_blocks():
+    u = np.sin(np.linspace(0.0, 2.0 * np.pi, 300))
+    found = left_out([Record(np.arange(300.0), u, u)])
+    assert found.blocks.folds == 4
+    assert not found.telling
