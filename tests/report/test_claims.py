@@ -7,6 +7,7 @@ import pytest
 from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, UNDECIDED, in_words, judge, sentences, table
 from hysteresis_bench.report.paper.claims_file import write_claims
 from hysteresis_bench.report.paper.published import check_published
+from hysteresis_bench.report.shared.text import NONE
 from hysteresis_bench.report.trials.best_known import best_known
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import _successes
@@ -69,6 +70,8 @@ def test_nobody_is_faster_where_nobody_arrives():
     found = judged(here, "evaluations_to_success")
     assert found.verdict == UNDECIDED
     assert found.why.startswith("neither comes")
+    row = dict(zip((shown := table([found])).header, shown.cells[0], strict=True))
+    assert (row["Here"].text, row["Equivalent"].text) == (UNDECIDED, NONE)
 
 
 def test_the_verdicts_are_kept_for_other_programs(tmp_path):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -71,6 +71,7 @@ def _judged(claim: Claim, problem: Problem, found: statistics.Comparison) -> Jud
     verdict, why = VERDICTS.get(found.verdict, UNDECIDED), found.words
     if claim.metric == TO_SUCCESS and found.p is not None and np.mean(np.isinf(ours) & np.isinf(theirs)) > 0.5:
         verdict, why = UNDECIDED, "neither comes to the best known in most of them"
+        found = replace(found, practical=None)  # never there is not equally fast
     return Judged(claim, problem.name, verdict, why, medians, found, problem.several, problem.counted)
 
 
