@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
+from hysteresis_bench.report.searches.against_time import against_time
 from hysteresis_bench.report.searches.figures import convergence, runtime
 from hysteresis_bench.report.searches.looks import Look, floors, in_words
 from hysteresis_bench.report.searches.parameters_by_iteration import parameters_by_iteration
@@ -27,6 +28,7 @@ def section(
         in_words(looks, reference, papers, floor=floors(results.study)),
         Figures([convergence(folder, f"convergence-{i}", problem, looks=looks, budget=budget) for i, problem in drawn]),
         Figures([runtime(folder, f"runtime-{i}", problem, looks=looks, budget=budget) for i, problem in drawn]),
+        Figures([against_time(folder, f"time-{i}", problem, looks=looks) for i, problem in drawn]),
     ]
     moved = [
         parameters_by_iteration(results, problem.name, label, folder=folder, name=f"parameters-{i}-{j}")

@@ -60,12 +60,16 @@ STYLE: dict[Any, Any] = {
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure on disk and in the page. name : of its file; alt : what it shows, for who cannot see it."""
+    """A figure on disk and in the page.
+
+    name : of its file;  alt : what it shows, for who cannot see it;  data : the file beside it that holds its numbers
+    """
 
     name: str
     alt: str
     caption: str
     inline: str
+    data: str = ""
 
 
 def picture(
