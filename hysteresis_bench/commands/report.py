@@ -16,13 +16,17 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 @click.option("--open", "open_it", is_flag=True, help="Open the report in a browser.")
 @json_option
 def report(results: Path, open_it: bool, as_json: bool) -> None:
-    """Write the report of a results folder again."""
+    """Write the report of a results folder again, or the index of a folder of such folders."""
     from hysteresis_bench.diagnosis_study.results import STUDY
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
     from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
+    from hysteresis_bench.report.index.page import is_index, write_index
     from hysteresis_bench.report.study import write_report
 
-    page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
+    if is_index(results):
+        page = write_index(results)
+    else:
+        page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
     if as_json:
         say_json({"summary": summary_of(results), "report": page})
     else:
