@@ -16,6 +16,8 @@ from hysteresis_bench.report.shared.theme import Picture, legend, picture
 from hysteresis_bench.report.trials.problem import Problem
 
 POINTS = 160
+SPAN = 1e3
+"""From the longest trial's end back to what is drawn first: the first evaluations say little."""
 
 
 def against_time(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look]) -> Picture:
@@ -28,14 +30,16 @@ def against_time(folder: Path, name: str, problem: Problem, *, looks: Mapping[st
         for label, (seconds, ratios) in curves.items():
             axes.plot(seconds, ratios, color=looks[label].colour, linestyle=looks[label].dash, label=label)
         axes.set(xscale="log", yscale="log", xlabel="Time (s)", ylabel="Best fitness so far / best known")
-        finite = [ratios[np.isfinite(ratios)] for _, ratios in curves.values()]
-        axes.set_ylim(0.98, min(max((float(each[0]) for each in finite if each.size), default=2.0), 100.0))
-        legend(axes, 3)
+        end = max((float(seconds[-1]) for seconds, _ in curves.values() if np.isfinite(seconds[-1])), default=1.0)
+        axes.set_xlim(end / SPAN, 1.3 * end)
+        seen = [ratios[(seconds >= end / SPAN) & np.isfinite(ratios)] for seconds, ratios in curves.values()]
+        axes.set_ylim(0.97, 1.1 * max((float(each[0]) for each in seen if each.size), default=2.0))
+        legend(axes, 2)
 
     caption = f"{problem.name}. Best fitness so far over the best known against time, both logarithmic: median over "
     caption += f"{problem.counted}. A trial’s time is spread evenly over its evaluations; it holds the optimizer’s own "
     caption += "work, and whatever else the machine did."
-    return picture(folder, name, (4.6, 3.1), alt=f"Fitness against time. {caption}", caption=caption, draw=draw)
+    return picture(folder, name, (4.6, 3.4), alt=f"Fitness against time. {caption}", caption=caption, draw=draw)
 
 
 def curve(problem: Problem, label: str) -> tuple[Array, Array]:

@@ -45,29 +45,43 @@ def final_parameters(folder: Path, name: str, problem: Problem, *, looks: Mappin
             shown = {"data": ended, "x": x, "hue": who, "palette": palette, "legend": False, "ax": axes}
             if row == column:
                 seaborn.histplot(**shown, bins=12, multiple="stack", linewidth=0, log_scale=_decades(ended[x]))
-                axes.tick_params(labelleft=False)
             else:
                 seaborn.scatterplot(**shown, y=y, s=12, alpha=0.6, linewidth=0)
                 axes.set_yscale("log" if _decades(ended[y]) else "linear")
+                axes.set_ylim(_limits(ended[y]))
+            axes.set_xlim(_limits(ended[x]))
             axes.set(xlabel=x.removeprefix(PREFIX) if row == count - 1 else "")
             axes.set(ylabel=y.removeprefix(PREFIX) if column == 0 and row else "")
             axes.tick_params(labelleft=column == 0 and row > 0, which="both")
 
     caption = f"{problem.name}: parameters of the {len(ended)} trials within {100 * (NEAR - 1):g}\u202f% of the best "
-    caption += f"known{' on the first instance' if problem.several else ''}, whoever made them. A cloud that is wide "
-    caption += "in a parameter, or a line along two, is what these data do not tell. Colours as in the other figures."
+    caption += f"known{' on the first instance' if problem.several else ''}, whoever made them, over those of the best "
+    caption += "one. A cloud that is wide in a parameter, or a line along two, is what these data do not tell. Colours "
+    caption += "as in the other figures."
     side = 1.15 * len(names) + 0.6
     return picture(folder, name, (side + 0.4, side), alt=f"Final parameters. {caption}", caption=caption, draw=draw)
 
 
 def good_trials(problem: Problem) -> pd.DataFrame:
-    """The rows of the first instance that came within 1 % of its best known, with the parameters that they searched."""
+    """The rows of the first instance that came within 1 % of its best known: the optimizer, and the parameters that
+    they searched, over those of the best one (as they are where that is 0)."""
     first = problem.instances[0]
     rows = pd.concat([rows[rows["instance"] == first] for rows in problem.rows.values()], ignore_index=True)
-    good = rows[metric_values(rows, "fitness") <= NEAR * problem.best[first]]
+    fitness = metric_values(rows, "fitness")
+    good = rows[fitness <= NEAR * problem.best[first]]
     searched = [column for column in good if column.startswith(PREFIX) and good[column].notna().all()]
-    values = good[searched].astype(float)
-    return good[["optimizer"]].join(values.loc[:, values.nunique() > 1]).reset_index(drop=True)
+    values = good[searched].astype(float).loc[:, lambda each: each.nunique() > 1]
+    best = rows.loc[int(np.argmin(fitness)), values.columns].astype(float)
+    return good[["optimizer"]].join(values / best.where(best != 0.0, 1.0)).reset_index(drop=True)
+
+
+def _limits(values: pd.Series) -> tuple[float, float]:
+    """Of an axis; differences below 1 % look small."""
+    low, high = min(float(values.min()), 0.99), max(float(values.max()), 1.01)
+    if _decades(values):
+        return low / 1.5, high * 1.5
+    margin = 0.06 * (high - low)
+    return low - margin, high + margin
 
 
 def _decades(values: pd.Series) -> bool:
