@@ -2,6 +2,7 @@
 
 import tomllib
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pandas as pd
@@ -10,8 +11,9 @@ import pytest
 from hysteresis_bench.control.bench import SLIDING
 from hysteresis_bench.report.paper.claims import HOLDS, NOT_STAGED, UNDECIDED, judge, sentences
 from hysteresis_bench.report.paper.published import check_published
+from hysteresis_bench.report.stages.figures import loop_figures, stage_figures
 from hysteresis_bench.report.trials.summary import problems
-from hysteresis_bench.study.afterwards import staged_trials
+from hysteresis_bench.study.afterwards import staged_trials, stages
 from hysteresis_bench.study.problems import build_problem
 from hysteresis_bench.study.results import STAGED_COLUMNS, STAGED_TRIALS, read_results
 from hysteresis_bench.study.study_file import check_study
@@ -106,8 +108,21 @@ def test_a_model_that_no_controller_can_use_is_told_and_keeps_its_other_numbers(
     assert f"tracking_rmse.{SLIDING}" not in row
 
 
-@pytest.mark.parametrize("stages", [True, False])
-def test_claims_on_a_stage_are_judged_over_its_rows(tmp_path, stages):
+def test_the_courses_of_the_best_trials_loops_are_kept_and_drawn(tmp_path, monkeypatch):
+    monkeypatch.setattr(stages, "compare", partial(stages.compare, rate=2000.0))
+    built = {"static": build_problem(STUDY.problem[0], STUDY.seed, None)}
+    _, responses = stages.run_stages(STUDY, trials((1, 0)), built, folder=None)
+    loops = responses[responses["role"] == f"{stages.CONTROL}{SLIDING}"]
+    assert set(loops["record"]) == {"ramp", "damped-sine", "sine-10-hz", "sine-30-hz", "sine-50-hz", "complex"}
+    assert (loops["simulated"] - loops["output"]).abs().max() < 0.5
+    units = {"time": "s", "input": "V", "output": "um"}
+    assert len(loop_figures(tmp_path, 1, responses, units=units)) == 6
+    fits, _ = stage_figures(tmp_path, 1, responses, units=units)
+    assert len(fits) == 2  # of the check alone
+
+
+@pytest.mark.parametrize("run", [True, False])
+def test_claims_on_a_stage_are_judged_over_its_rows(tmp_path, run):
     results = read_results(write_results(tmp_path))
     claim = {"says": "x", "where": "y", "better": "mpso", "worse": "pso", "metric": "check_rmse"}
     rows = results.trials[results.trials["problem"] == PROBLEMS[0]][["optimizer", "instance", "trial"]]
@@ -115,11 +130,11 @@ def test_claims_on_a_stage_are_judged_over_its_rows(tmp_path, stages):
     behind = rows.assign(stage="linear", made_of="h0", fault="", check_rmse=errors).dropna(subset="check_rmse")
     stage = STUDY.stage[0].model_copy(update={"after": PROBLEMS[0]})
     study = results.study.model_copy(update={"stage": [stage]})
-    here = problems(replace(results, study=study, staged=behind if stages else NONE))
+    here = problems(replace(results, study=study, staged=behind if run else NONE))
     judged = judge(check_published({"claim": [claim]}), here)
     assert [found.problem for found in judged] == [PROBLEMS[0]]
-    assert judged[0].verdict == (HOLDS if stages else UNDECIDED)
-    assert (NOT_STAGED in sentences(judged)[0]) != stages
+    assert judged[0].verdict == (HOLDS if run else UNDECIDED)
+    assert (NOT_STAGED in sentences(judged)[0]) != run
 
 
 def test_a_table_that_is_damaged_is_left_out(tmp_path):

@@ -16,7 +16,7 @@ from hysteresis_bench.report.shared.blocks import Block, Details, Figures, Headi
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import percent
 from hysteresis_bench.report.shared.theme import Picture
-from hysteresis_bench.report.stages.figures import stage_figures
+from hysteresis_bench.report.stages.figures import loop_figures, stage_figures
 from hysteresis_bench.report.stages.rows import mean_error
 from hysteresis_bench.report.stages.spread import spread_tables
 from hysteresis_bench.report.stages.tables import check, linear_section, tracking, ways
@@ -35,6 +35,7 @@ class StageView:
     tables: list[Table]
     fits: list[Picture]
     loops: list[Picture]
+    controlled: list[Picture]
 
 
 def section(results: Results, published: Published, folder: Path) -> Section | None:
@@ -45,6 +46,8 @@ def section(results: Results, published: Published, folder: Path) -> Section | N
         if view.spread:
             best = [*view.spread, Details("The best trial of each, on the first instance", view.tables)]
         blocks += [Heading(view.name), *view.sentences, *best, Figures(view.fits), Figures(view.loops, "small")]
+        if view.controlled:
+            blocks.append(Details("Closed loops on the rig, as the paper's Figure 15", [Figures(view.controlled)]))
     return Section("stages", "The linear section, and the whole model", blocks) if blocks else None
 
 
@@ -70,9 +73,10 @@ def _view(i: int, spec: StageSpec, results: Results, published: Published, folde
     drawn = results.responses
     mine = drawn if drawn.empty else drawn[drawn["problem"] == spec.name]
     fits, loops = stage_figures(folder, i, mine, units=units)
+    controlled = loop_figures(folder, i, mine, units=units)
     staged = results.staged if results.staged.empty else results.staged[results.staged["stage"] == spec.name]
     spread = spread_tables(spec, staged, published if spec.check else Published(), unit)
-    return StageView(spec.name, list(_sentences(spec, rows, checked)), spread, tables, fits, loops)
+    return StageView(spec.name, list(_sentences(spec, rows, checked)), spread, tables, fits, loops, controlled)
 
 
 def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> Iterator[str]:

@@ -12,6 +12,7 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.control.bench import PRINTED
 from hysteresis_bench.control.comparison import compare, stepped_rig
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
@@ -27,7 +28,7 @@ from hysteresis_bench.study.study_file import StageSpec, Study
 COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")
 STAGED, HELD, FITTED, LARGEST, RMSE = "staged", "held", "fitted", "largest error", "rmse"
 TRACKING = {"t_error": "largest tracking error", "t_rmse": "tracking rmse"}
-BEST = "best of all"
+BEST, CONTROL = "best of all", "control: "
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +49,8 @@ class Whole:
 def run_stages(
     study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, folder: Path
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses.
+    """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses; of a closed loop the
+    reference is the output, what is reached the simulated one, and the role CONTROL with the controller behind it.
 
     folder : where relative data files are looked for. An absent number is None: the errors of a section that
     is unstable, a standard error that the data cannot tell. Errors are in units of the output.
@@ -71,7 +73,9 @@ def run_stages(
                 named = checked.assign(problem=stage.name, optimizer=whole.optimizer, role="check")
                 parts.append(named[list(RESPONSE_COLUMNS)])
             if whole.optimizer in stage.control and whole.way == STAGED:
-                rows += [about | row for row in _tracked(stage, study, whole, data)]
+                tracked, courses = _tracked(stage, study, whole, data)
+                rows += [about | row for row in tracked]
+                parts.append(courses)
     return pd.DataFrame(rows, columns=list(COLUMNS)), pd.concat(parts) if parts else pd.DataFrame()
 
 
@@ -127,19 +131,26 @@ def section_behind(stage: StageSpec, label: str, found: Mapping[str, float], sta
     return Whole(label, STAGED, system, section.values, tuple(rows), section.fault)
 
 
-def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Iterator[dict[str, Any]]:
-    """Every controller along every reference, on the rig; a row with the fault where the model allows none."""
+def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> tuple[list[dict[str, Any]], pd.DataFrame]:
+    """Every controller along every reference, on the rig, and the courses of the stage's, or of the paper's; a row with
+    the fault where the model allows none."""
     after = next(spec for spec in study.problem if spec.name == stage.after)
     assert after.rig is not None
     try:
         rig = stepped_rig(after.rig, after.rig_settings)
-        scores = compare(model_of(stage, whole, data), rig, after.rig, seed=study.seed).scores
+        found = compare(model_of(stage, whole, data), rig, after.rig, seed=study.seed)
     except ValueError as fault:
-        yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
-        return
-    for score in scores.to_dict("records"):
-        for key, quantity in TRACKING.items():
-            yield _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
+        row = _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"])
+        return [row | {"fault": str(fault)}], pd.DataFrame()
+    rows = [
+        _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
+        for score in found.scores.to_dict("records")
+        for key, quantity in TRACKING.items()
+    ]
+    courses = found.responses[found.responses["controller"].isin(stage.controllers or [PRINTED])]
+    names = {"reference": "record", "voltage": "input", "wanted": "output", "displacement": "simulated"}
+    named = courses.rename(columns=names).assign(problem=stage.name, optimizer=whole.optimizer)
+    return rows, named.assign(role=CONTROL + named["controller"])[list(RESPONSE_COLUMNS)]
 
 
 def model_of(stage: StageSpec, whole: Whole, data: Built) -> FittedModel:
