@@ -61,7 +61,8 @@ def test_it_says_what_every_report_answers_and_judges_over_instances_only(kept):
     assert "nor a note" not in page
     assert "not in the answer" not in page
     assert "Of 2 judgements on the papers’ claims, each over 20 instances of the device: 1 holds and 1 cannot" in page
-    assert page.count("new &lt;beats&gt; old") == 2
+    assert "What holds: new &lt;beats&gt; old (“static”)." in page
+    assert page.count("new &lt;beats&gt; old") == 3
     assert "of one instance" not in page
     assert "Eleven devices" in page
     assert "A paragraph." not in page

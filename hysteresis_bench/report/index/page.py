@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from hysteresis_bench.data.csv_files import read_table
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS
+from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, UNDECIDED
 from hysteresis_bench.report.paper.claims_file import CLAIMS
 from hysteresis_bench.report.shared.blocks import Block, Cell, Details, Table
 from hysteresis_bench.report.shared.page import Page, Section
@@ -76,13 +76,12 @@ def write_index(folder: Path) -> Path:
         raise UserError(str(folder), f"holds no results: no folder in it has a {REPORT}.")
     found = {path.parent.name: _read(path) for path in pages}
     claims = _claims([path.parent for path in pages])
-    sections = [_section(name, read) for name, read in found.items()]
+    sections = [*_claims_section(claims), *(_section(name, read) for name, read in found.items())]
     rest = [each for each in sorted(folder.iterdir()) if each.is_dir() and each.name not in found]
     sections += [_tables_only(each) for each in rest if any(each.glob("*.csv"))]
-    answer = [*_on_claims(claims), *_claims_table(claims)]
-    return Page("What was found, report by report", "hysteresis-bench results", sections, answer, contents=True).write(
-        folder / INDEX
-    )
+    answer = list(_on_claims(claims))
+    page = Page("What was found, report by report", "hysteresis-bench results", sections, answer, contents=True)
+    return page.write(folder / INDEX)
 
 
 def _read(path: Path) -> Answered:
@@ -117,9 +116,14 @@ def _on_claims(claims: pd.DataFrame) -> Iterator[str]:
     if claims.empty:
         return
     counts = claims["verdict"].value_counts()
-    told = [f"{count} {_many(str(verdict), count)}" for verdict, count in counts.items()]
+    ordered = [verdict for verdict in (HOLDS, EQUIVALENT, FAILS, UNDECIDED) if verdict in counts]
+    told = [f"{counts[verdict]} {_many(verdict, counts[verdict])}" for verdict in ordered]
     over = listed(list(dict.fromkeys(claims["over"])))
     yield f"Of {len(claims)} judgements on the papers’ claims, each over {over} of the device: {listed(told)}."
+    held = claims[claims["verdict"] == HOLDS]
+    if not held.empty:
+        names = [f"{claim} (“{problem}”)" for claim, problem in zip(held["claim"], held["problem"], strict=True)]
+        yield f"What holds: {listed(names, len(names))}."
 
 
 def _many(verdict: str, count: int) -> str:
@@ -129,7 +133,7 @@ def _many(verdict: str, count: int) -> str:
     return verdict if count == 1 else {HOLDS: "hold", FAILS: "do not hold", EQUIVALENT: "make no difference"}[verdict]
 
 
-def _claims_table(claims: pd.DataFrame) -> Iterator[Block]:
+def _claims_section(claims: pd.DataFrame) -> Iterator[Section]:
     if claims.empty:
         return
     rows: list[list[str | Cell]] = []
@@ -141,4 +145,5 @@ def _claims_table(claims: pd.DataFrame) -> Iterator[Block]:
     header = ["Claim", "Problem", "Here", "A12 (95 %)", "p", "Equivalent", "In"]
     note = "A12 is how often the one said to be better is better on the same specimen; p after Holm’s correction over "
     note += "the claims of a problem; the probability that both are within 1\u202f% of each other."
-    yield Table("The papers’ claims over instances", header, rows, note)
+    heading = "The papers’ claims over instances"
+    yield Section("claims", heading, [Table("Every claim on every problem", header, rows, note)])
