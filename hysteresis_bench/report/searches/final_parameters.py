@@ -18,6 +18,8 @@ ENOUGH = 8
 """Trials below which a cloud says nothing."""
 MOST = 6
 """Parameters of a grid: more panels cannot be read."""
+DOTS = 120
+"""Trials that are drawn: more lie on top of each other, and a page has to be loaded."""
 OTHERS = "others"
 PREFIX = "parameter."
 
@@ -29,6 +31,7 @@ def final_parameters(folder: Path, name: str, problem: Problem, *, looks: Mappin
     names = [column for column in ended if column.startswith(PREFIX)][:MOST]
     if len(ended) < ENOUGH or len(names) < 2:
         return None
+    count, ended = len(ended), ended.iloc[np.unique(np.linspace(0, len(ended) - 1, DOTS).round().astype(int))]
     who = ended["optimizer"].where(ended["optimizer"].isin(list(looks)), OTHERS)
     palette = {label: looks[label].colour if label in looks else MUTED for label in dict.fromkeys(who)}
 
@@ -54,21 +57,23 @@ def final_parameters(folder: Path, name: str, problem: Problem, *, looks: Mappin
             axes.set(ylabel=y.removeprefix(PREFIX) if column == 0 and row else "")
             axes.tick_params(labelleft=column == 0 and row > 0, which="both")
 
-    caption = f"{problem.name}: parameters of the {len(ended)} trials within {100 * (NEAR - 1):g}\u202f% of the best "
+    caption = f"{problem.name}: parameters of the {count} trials within {100 * (NEAR - 1):g}\u202f% of the best "
     caption += f"known{' on the first instance' if problem.several else ''}, whoever made them, over those of the best "
     caption += "one. A cloud that is wide in a parameter, or a line along two, is what these data do not tell. Colours "
     caption += "as in the other figures."
+    caption += f" {DOTS} of them are drawn, evenly from the best to the worst." if count > DOTS else ""
     side = 1.15 * len(names) + 0.6
     return picture(folder, name, (side + 0.4, side), alt=f"Final parameters. {caption}", caption=caption, draw=draw)
 
 
 def good_trials(problem: Problem) -> pd.DataFrame:
     """The rows of the first instance that came within 1 % of its best known: the optimizer, and the parameters that
-    they searched, over those of the best one (as they are where that is 0)."""
+    they searched, over those of the best one (as they are where that is 0); the best ones first."""
     first = problem.instances[0]
     rows = pd.concat([rows[rows["instance"] == first] for rows in problem.rows.values()], ignore_index=True)
     fitness = metric_values(rows, "fitness")
-    good = rows[fitness <= NEAR * problem.best[first]]
+    order = np.argsort(fitness, kind="stable")
+    good = rows.iloc[order[fitness[order] <= NEAR * problem.best[first]]]
     searched = [column for column in good if column.startswith(PREFIX) and good[column].notna().all()]
     values = good[searched].astype(float).loc[:, lambda each: each.nunique() > 1]
     best = rows.loc[int(np.argmin(fitness)), values.columns].astype(float)
