@@ -95,7 +95,8 @@ def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> I
         ours = [mean_error(spec, rows, label, way=STAGED, quantity=quantity) for label in (first, second)]
         if None in ours:
             continue
-        said = f"Mean {quantity} over the {len(spec.check)} signals: {_less(first, second, ours)}"
+        said = f"Mean {quantity} over the {len(spec.check)} signals, of the best trials on the first instance: "
+        said += _less(first, second, ours)
         for table in checked:
             names = [f"{label}_{column}" for label in (first, second)]
             if set(names) <= set(table.columns):

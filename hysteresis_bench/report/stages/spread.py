@@ -87,7 +87,8 @@ def _blocks(rows: pd.DataFrame, name: str) -> Array:
 def _spread(blocks: Array) -> str:
     if blocks.size == 0:
         return NONE
-    low, middle, high = (number(statistics.quantile(blocks, share)) for share in (0.25, 0.5, 0.75))
+    shares = {0.25: 3, 0.5: 4, 0.75: 3}
+    low, middle, high = (number(statistics.quantile(blocks, share), digits) for share, digits in shares.items())
     return f"{middle} ({low} to {high})"
 
 
