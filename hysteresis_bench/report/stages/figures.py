@@ -18,10 +18,11 @@ CYCLES = 3
 
 
 def loop_figures(folder: Path, number: int, responses: pd.DataFrame, *, units: Units) -> list[Picture]:
-    """Closed loops, one a controller and reference. responses : of the stage;  number : in the names of figures"""
+    """Closed loops of the stage's first controller, one a reference. number : in the names of figures"""
     if responses.empty:
         return []
     loops = responses[responses["role"].str.startswith(CONTROL)]
+    loops = loops[loops["role"].isin(loops["role"].unique()[:1])]
     found = []
     for j, ((role, record), rows) in enumerate(loops.groupby(["role", "record"], sort=False), 1):
         parts = {

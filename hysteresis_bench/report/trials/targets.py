@@ -70,7 +70,7 @@ def area_over_curve(problem: Problem, label: str, budget: int) -> float:
     best = np.array([problem.best_at(label, key, counts) for key in problem.keys(label)])
     known = problem.known(label)[:, None]
     over = np.divide(best, known, out=np.full(best.shape, np.inf), where=(known > 0.0) & np.isfinite(known))
-    areas = 1.0 - np.clip(np.log10(over), 0.0, 1.0).mean(axis=1)
+    areas = 1.0 - np.log10(np.clip(over, 1.0, 10.0)).mean(axis=1)
     return statistics.quantile(problem.per_block(label, areas), 0.5)
 
 
