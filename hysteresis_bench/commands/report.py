@@ -14,19 +14,33 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 @click.command()
 @click.argument("results", type=click.Path(path_type=Path, file_okay=False))
 @click.option("--open", "open_it", is_flag=True, help="Open the report in a browser.")
+@click.option(
+    "--ioh", type=click.Path(path_type=Path, file_okay=False), help="Also write the searches for IOHprofiler."
+)
 @json_option
-def report(results: Path, open_it: bool, as_json: bool) -> None:
-    """Write the report of a results folder again."""
+def report(results: Path, open_it: bool, ioh: Path | None, as_json: bool) -> None:
+    """Write the report of a results folder again, or the index of a folder of such folders."""
     from hysteresis_bench.diagnosis_study.results import STUDY
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
     from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
+    from hysteresis_bench.report.index.page import is_index, write_index
     from hysteresis_bench.report.study import write_report
 
-    page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
+    if is_index(results):
+        page = write_index(results)
+    else:
+        page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
+    if ioh:
+        from hysteresis_bench.report.trials.ioh import write_ioh
+        from hysteresis_bench.study.results import read_results
+
+        write_ioh(read_results(results), ioh)
     if as_json:
         say_json({"summary": summary_of(results), "report": page})
     else:
         say_path(plain_console(), "report", page)
+        if ioh:
+            say_path(plain_console(), "searches", ioh)
     if open_it:
         click.launch(str(page))
 

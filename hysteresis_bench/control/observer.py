@@ -55,3 +55,20 @@ def observer(linear: LinearSection, bandwidth: float, interval: float) -> Observ
     seen = np.vstack([np.linalg.matrix_power(transition, power)[0] for power in range(3)])
     gain = np.linalg.matrix_power(shifted, 3) @ np.linalg.solve(seen, [0.0, 0.0, 1.0])
     return Observer(transition, drive, np.linalg.solve(transition, gain))
+
+
+@dataclass(frozen=True)
+class Differences:
+    """No observer: the reading itself, and the velocity as its difference, noise and rounding included.
+
+    interval : s, between samples
+    """
+
+    interval: float
+
+    def corrected(self, predicted: Array, measured: float) -> Array:
+        """predicted : the estimate at the sample before"""
+        return np.array([measured, (measured - predicted[0]) / self.interval, 0.0])
+
+    def predicted(self, estimate: Array, v: float) -> Array:
+        return estimate

@@ -1,7 +1,7 @@
 """What the output should do: the six signals of the PEA paper's Table 6.
 
-The paper prints neither amplitudes nor durations; ours are below. Sines fade in over FADE_IN and are scored from
-then on, since no controller can start a mass at full speed.
+The paper prints neither amplitudes nor durations, and of the damped sine 0.5 Hz in section 5.1; ours are below. Sines
+fade in over FADE_IN and are scored from then on, since no controller can start a mass at full speed.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]
 
     return (
         made("ramp", 2.0, lambda time: 1.0 - np.abs(time - 1.0)),  # up in 1 s, down in 1 s
-        made("damped-sine", 3.0, lambda time: 0.05 ** (time / 3.0) * np.sin(2.0 * np.pi * 2.0 * time)),  # 2 Hz
+        made("damped-sine", 6.0, lambda time: 0.05 ** (time / 6.0) * np.sin(2.0 * np.pi * 0.5 * time)),  # 0.5 Hz
         made("sine-10-hz", 0.5, sine(10.0), FADE_IN),
         made("sine-30-hz", 0.5, sine(30.0), FADE_IN),
         made("sine-50-hz", 0.5, sine(50.0), FADE_IN),

@@ -8,6 +8,7 @@ within it is a repeat. Where there is one instance, its trials are the blocks, a
 from hysteresis_bench.statistics.comparison import (
     CANNOT_TELL,
     SAME,
+    TIE,
     TOO_FEW,
     Comparison,
     Sample,
@@ -26,6 +27,7 @@ __all__ = [
     "LEVEL",
     "REGION",
     "SAME",
+    "TIE",
     "TOO_FEW",
     "Comparison",
     "Friedman",

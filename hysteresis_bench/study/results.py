@@ -24,10 +24,11 @@ from hysteresis_bench.study.study_file import Study, read_study
 
 STUDY, PUBLISHED, PROVENANCE = "study.toml", "published.toml", "provenance.json"
 TRIALS, SUMMARY, RESPONSES, REPORT = "trials.csv", "summary.csv", "responses.csv", "report.html"
-IDENTIFIABILITY, STAGES = "identifiability.json", "stages.csv"
+IDENTIFIABILITY, STAGES, STAGED_TRIALS = "identifiability.json", "stages.csv", "staged-trials.csv"
 
 RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
 STAGE_COLUMNS = ("stage", "quantity", "name", "value")
+STAGED_COLUMNS = ("stage", "optimizer", "instance", "trial", "made_of", "fault")
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,6 +45,7 @@ class Results:
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
         of all trials of the first instance, or its "fault"
     stages : one row a quantity of a stage with the columns of stages.csv, empty without stages
+    staged : one row a trial that a stage follows, of every instance, see staged_trials; empty without
     origins : what every trial was made with: package versions, the processor; where the store is kept
     damages : sentences on what could not be read
     closing : the diagnosis at the end; None where the study asks for none, or none was tried
@@ -61,6 +63,7 @@ class Results:
     closing: Closing | None = None
     damages: tuple[str, ...] = ()
     origins: Mapping[Trial, Mapping[str, str]] = field(default_factory=dict)
+    staged: pd.DataFrame = field(default_factory=pd.DataFrame)
 
     @property
     def mixed(self) -> tuple[str, ...]:
@@ -88,6 +91,7 @@ def read_results(folder: Path) -> Results:
     reader = Reader(folder)
     trials, traces, origins = _trials(reader)
     closing = read_closing(reader) if study.closing else None
+    staged = reader.csv(STAGED_TRIALS, STAGED_COLUMNS)
     return Results(
         folder,
         study,
@@ -101,6 +105,7 @@ def read_results(folder: Path) -> Results:
         closing,
         tuple(reader.damages),
         origins,
+        staged,
     )
 
 

@@ -14,6 +14,7 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError, told
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
+from hysteresis_bench.study.afterwards.staged_trials import run_staged_trials
 from hysteresis_bench.study.afterwards.stages import run_stages
 from hysteresis_bench.study.execution.cluster import Cluster
 from hysteresis_bench.study.execution.pool import MACHINE, Pool, Work
@@ -25,11 +26,12 @@ from hysteresis_bench.study.execution.trial import (
     rehearsals,
     tickets_of,
 )
+from hysteresis_bench.study.kept_files.reader import Reader
 from hysteresis_bench.study.kept_files.trial_rows import FIRST, as_kept
 from hysteresis_bench.study.lock import alone, write_whole
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.provenance import describe
-from hysteresis_bench.study.results import IDENTIFIABILITY, RESPONSES, STAGES, TRIALS
+from hysteresis_bench.study.results import IDENTIFIABILITY, RESPONSES, STAGED_COLUMNS, STAGED_TRIALS, STAGES, TRIALS
 from hysteresis_bench.study.store import DAMAGED, FILE, Outcome, Store
 from hysteresis_bench.study.study_file import Study, read_study
 
@@ -116,6 +118,10 @@ def run_study(
         write_table(folder / TRIALS, as_kept(table))
     if options.shard:
         return folder
+    if study.stage:
+        kept = Reader(folder).csv(STAGED_TRIALS, STAGED_COLUMNS)
+        rows = run_staged_trials(study, table, built, folder=path.parent, kept=kept)
+        write_table(folder / STAGED_TRIALS, rows, digits=7)
     table = table[table["instance"] == FIRST]  # what follows the trials is told of the rig as it stands
     staged, staged_responses = run_stages(study, table, built, folder=path.parent)
     if study.stage:

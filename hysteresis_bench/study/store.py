@@ -16,7 +16,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.study.kept_files.trial_rows import FIRST, KEY, check_rows
+from hysteresis_bench.study.kept_files.trial_rows import FIRST, KEY, MEASURED, check_rows
 from hysteresis_bench.study.origin import Trial
 
 FILE = "trials.sqlite"
@@ -24,20 +24,7 @@ FILE = "trials.sqlite"
 DAMAGED = (sqlite3.Error, ValueError, TypeError, AttributeError, OSError, KeyError, EOFError, zipfile.BadZipFile)
 """What a store that was cut or overwritten raises when it is read."""
 
-COLUMNS = (
-    "study",
-    *KEY,
-    "seed",
-    "status",
-    "reason",
-    "evaluations",
-    "fitness",
-    "rmse",
-    "relative_rms",
-    "max_error",
-    "held_out_rmse",
-    "seconds",
-)
+COLUMNS = ("study", *KEY, "seed", "status", "reason", *MEASURED)
 """Columns of a table of trials; parameter.NAME columns follow."""
 
 TRIALS = f"""trials (

@@ -140,6 +140,7 @@ def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
         found.append(f'control: "{label}" is not among the optimizers of this stage.')
     if spec.get("control") and not problems.get(str(spec.get("after")), {}).get("rig"):
         found.append(f'control: "{spec.get("after")}" has no rig to control.')
+    found += _controller_faults(spec)
     source = {key: value for key, value in problems.get(str(spec.get("after")), {}).items() if key.startswith("rig")}
     found += problem_faults(source | {"fitted": listed(spec, "fitted"), "held_out": listed(spec, "check")})
     names, known = _parameter_names(spec), _parameter_names(problems.get(str(spec.get("after")), {}))
@@ -155,6 +156,16 @@ def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
         if known and name not in (*fit, *known):
             found.append(f'{name} of {spec["model"]} is neither in fit nor found by "{spec["after"]}".')
     return found
+
+
+def _controller_faults(spec: dict[str, Any]) -> list[str]:
+    if not (asked := listed(spec, "controllers")):
+        return []
+    from hysteresis_bench.control.bench import MEANINGS
+
+    unknown = [name for name in asked if name not in MEANINGS]
+    found = [f'controllers: no controller "{name}". {nearest(name, MEANINGS)}' for name in unknown]
+    return found if listed(spec, "control") else [*found, "controllers: without control there is nobody to run them."]
 
 
 def _closing_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:

@@ -121,6 +121,7 @@ class StageSpec(Strict):
     fitted, check : experiments or records to fit and to check the whole model on
     beside : a problem that finds all parameters at once, for comparison
     control : labels whose staged model is put to work in closed loop on the problem's rig
+    controllers : that are run for every trial of these; for the best trial all of them are
     """
 
     name: str
@@ -133,6 +134,7 @@ class StageSpec(Strict):
     check: list[str] = []
     beside: str | None = None
     control: list[str] = []
+    controllers: list[str] = []
 
 
 class ClosingSpec(Strict):

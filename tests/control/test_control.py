@@ -12,13 +12,14 @@ from hysteresis_bench import registry
 from hysteresis_bench.cli import Group
 from hysteresis_bench.commands.control import control
 from hysteresis_bench.compose import System
+from hysteresis_bench.control.bench import FEED_FORWARD, IN_SERIES, LAYERED, PI, PRINTED, SLIDING
 from hysteresis_bench.control.closed_loop import Target, track
-from hysteresis_bench.control.comparison import FEED_FORWARD, LAYERED, PI, SLIDING, compare
+from hysteresis_bench.control.comparison import compare
 from hysteresis_bench.control.controllers.pi import Memory, ProportionalIntegral
 from hysteresis_bench.control.controllers.sliding_mode import SlidingMode
 from hysteresis_bench.control.controllers.tuning import PEAK, sliding_mode_loop, tune_pi, tune_sliding_mode
 from hysteresis_bench.control.feed_forward import LinearSection, feed_forward
-from hysteresis_bench.control.observer import observer
+from hysteresis_bench.control.observer import Differences, observer
 from hysteresis_bench.control.references import Reference, published_references
 from hysteresis_bench.control.trajectories.trajectory import follow, read_trajectory
 from hysteresis_bench.errors import UserError
@@ -104,6 +105,20 @@ def test_compound_control_beats_the_feed_forward_on_every_reference(compared):
     assert (errors[SLIDING] < errors[FEED_FORWARD]).all()
     assert (errors[LAYERED] < errors[FEED_FORWARD]).all()
     assert (errors[SLIDING] < 0.2 * errors[FEED_FORWARD]).loc[["sine-10-hz", "sine-30-hz", "sine-50-hz"]].all()
+
+
+def test_figure_12_to_the_letter_follows_worse_than_with_what_we_added(compared):
+    """On the model itself, with no sensor's noise: the observer and the inverse along the reference are ours."""
+    errors = by_controller(compared, "t_rmse")
+    assert (errors[PRINTED] < errors[FEED_FORWARD]).any()
+    assert (errors[PRINTED] != errors[IN_SERIES]).all()
+    assert errors[SLIDING].mean() < errors[PRINTED].mean()
+
+
+def test_without_an_observer_the_velocity_is_the_difference_of_two_readings():
+    differences = Differences(0.01)
+    first = differences.corrected(np.zeros(3), 0.5)
+    np.testing.assert_allclose(differences.corrected(differences.predicted(first, 3.0), 0.4), [0.4, -10.0, 0.0])
 
 
 def test_largest_error_is_never_below_the_rms_and_nothing_is_absent(compared):
@@ -303,6 +318,9 @@ def test_references_have_their_derivatives_and_delay_floor():
     scored = slice(sine.history, -1)
     np.testing.assert_allclose(sine.velocity[scored], 2 * omega * np.cos(omega * sine.time[scored]), atol=0.2)
     np.testing.assert_allclose(sine.acceleration[scored], -(omega**2) * sine.position[scored], atol=omega**2 * 1e-3)
+    falling = found["damped-sine"]
+    crossings = falling.time[1:][np.diff(np.sign(falling.position)) != 0]
+    np.testing.assert_allclose(np.diff(crossings), 1.0, atol=2 / RATE)  # 0.5 Hz, as section 5.1 prints it
     assert sine.delay_floor == pytest.approx(2 * omega / RATE / np.sqrt(2), rel=1e-2)
     assert max(np.abs(each.position).max() for each in found.values()) <= 2.0
 
@@ -367,7 +385,7 @@ def test_command_on_the_rig_beats_the_feed_forward_everywhere_and_writes_a_page(
     told = invoke(path, "--rig", "pea", "--rate", "4000", "--out", tmp_path / "out")
     assert told.exit_code == 0, told.output
     scores = pd.read_csv(tmp_path / "out" / "control.csv")
-    assert len(scores) == 36
+    assert len(scores) == 6 * 7
     assert not scores.isna().any(axis=None)
     errors = scores.pivot(index="reference", columns="controller", values="t_rmse")
     assert (errors[SLIDING] < errors[FEED_FORWARD]).all()

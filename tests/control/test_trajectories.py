@@ -11,7 +11,8 @@ from click.testing import CliRunner
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.compose import System
-from hysteresis_bench.control.comparison import FEED_FORWARD, PI, compare
+from hysteresis_bench.control.bench import FEED_FORWARD, PI
+from hysteresis_bench.control.comparison import compare
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.iterated_inverse import IteratedInverse
 from hysteresis_bench.control.linear_dynamics import Through, undone

@@ -3,9 +3,12 @@
 import re
 import shutil
 import subprocess
+from html import unescape
 
 import pytest
 
+from hysteresis_bench.report.shared.blocks import Table
+from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.study import write_report
 from tests.synthetic_study import write_results
 
@@ -49,6 +52,21 @@ def test_the_page_never_scrolls_sideways(page, tmp_path, width):
     wide, client = (int(re.search(rf'data-{name}="(\d+)"', dom)[1]) for name in ("wide", "client"))
     assert 0 < client <= width
     assert wide <= client
+
+
+@needs_browser
+def test_a_click_on_a_head_sorts_the_table_and_a_second_one_turns_it_round(tmp_path):
+    numbers = ["15\u202f050", "not reached", "2.5×10⁻³ (1 to 3)", "0.4\u202f%", "< 0.001", "1.1×10⁶"]
+    shown = Page("p", "k", [Section("s", "S", [Table("t", ["Name", "Number"], [["x", each] for each in numbers])])])
+    page = shown.write(tmp_path / "page.html")
+    for clicks, order in ((0, [0, 1, 2, 3, 4, 5]), (1, [4, 2, 3, 0, 5, 1]), (2, [1, 5, 0, 3, 2, 4])):
+        click = "document.querySelectorAll('thead button')[1].click();" * clicks
+        clicked = tmp_path / "clicked.html"
+        text = page.read_text(encoding="utf-8").replace("</body>", f"<script>{click}</script></body>")
+        clicked.write_text(text, encoding="utf-8")
+        dom = browse(clicked, tmp_path / "profile", "--dump-dom")
+        cells = re.findall(r'<td class="number">([^<]*(?:&lt;)?[^<]*)</td>', dom)
+        assert [unescape(cell) for cell in cells] == [numbers[place] for place in order]
 
 
 @needs_browser

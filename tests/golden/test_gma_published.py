@@ -13,7 +13,7 @@ from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.study.study_file import read_study
 from hysteresis_plugins.models.free_energy_gma import REDUCED, FreeEnergyGma
 from hysteresis_plugins.optimizers.icpso import Icpso
-from hysteresis_plugins.rigs.gma import PRINTED
+from hysteresis_plugins.rigs._gma_bench import PRINTED
 from hysteresis_plugins.rigs.gma_known_truth import TRUTH
 
 STUDIES = Path(__file__).parents[2] / "studies"

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.special import jv
 
+from hysteresis_plugins.rigs._gma_bench import MODULUS, PRINTED
 from hysteresis_plugins.rigs._gma_rod import PERMEABILITY, Material, diffused, uniform
-from hysteresis_plugins.rigs.gma import MODULUS, PRINTED, RADIUS, RESISTIVITY, SATURATION, GmaRig
+from hysteresis_plugins.rigs.gma import RADIUS, RESISTIVITY, SATURATION, GmaRig
 
 SUSCEPTIBILITY = 9.0
 LINEAR = Material(np.ones(1), np.ones(1), np.zeros(1), SUSCEPTIBILITY * 1e15, 1.0, 1e15)

@@ -61,7 +61,7 @@ def test_spends_the_budget_exactly(optimizer, budget):
     assert spent(optimizer, budget).evaluations == budget
 
 
-@pytest.mark.parametrize("optimizer", [Ga(), Gpmix(cycle=10)])
+@pytest.mark.parametrize("optimizer", [Ga(), Gpmix(cycle=10), Gpmix(cycle=10, enters="position")])
 def test_same_seed_same_trace_and_another_seed_another(optimizer):
     first, again, other = (spent(optimizer, 2000, seed).trace for seed in (3, 3, 4))
     np.testing.assert_array_equal(first.losses, again.losses)
@@ -106,6 +106,25 @@ def test_genetic_step_keeps_the_better_ones_and_never_worsens_a_place():
     np.testing.assert_allclose(swarm.best_loss, np.sum(swarm.best**2, axis=0))
     assert swarm.leader_loss == swarm.best_loss.min()
     assert 50 < bowl.evaluations <= 50 + np.count_nonzero(~better)
+
+
+def test_to_the_letter_the_step_takes_positions_and_leaves_velocity_and_better_memories():
+    rng, bowl = np.random.default_rng(7), Bowl()
+    swarm = Swarm.scattered(start, rng, 50, 0.2)
+    swarm.evaluate(bowl)
+    swarm.best[:, :25], swarm.best_loss[:25] = 0.01, 4e-4  # half of them have been at a better place
+    before, position, velocity = swarm.best_loss.copy(), swarm.position.copy(), swarm.velocity.copy()
+    Gpmix(enters="position").evolve(swarm, bowl, rng)
+    moved = np.any(swarm.position != position, axis=0)
+    assert moved[swarm.loss >= swarm.loss.mean()].any()
+    assert not moved[swarm.loss < swarm.loss.mean()].any()
+    assert np.all(np.sum(swarm.position**2, axis=0)[moved] < swarm.loss.max())
+    np.testing.assert_array_equal(swarm.velocity, velocity)
+    np.testing.assert_array_equal(swarm.best_loss[:25], before[:25])
+    assert np.any(swarm.best_loss[25:] < before[25:])
+    np.testing.assert_allclose(swarm.best_loss, np.sum(swarm.best**2, axis=0))
+    with pytest.raises(ValueError, match='enters = "both" must be'):
+        Gpmix(enters="both")
 
 
 def test_genetic_step_survives_a_swarm_that_has_collapsed():

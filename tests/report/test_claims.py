@@ -7,6 +7,8 @@ import pytest
 from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, UNDECIDED, in_words, judge, sentences, table
 from hysteresis_bench.report.paper.claims_file import write_claims
 from hysteresis_bench.report.paper.published import check_published
+from hysteresis_bench.report.searches.against_time import curve
+from hysteresis_bench.report.shared.text import NONE
 from hysteresis_bench.report.trials.best_known import best_known
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.summary import _successes
@@ -69,6 +71,8 @@ def test_nobody_is_faster_where_nobody_arrives():
     found = judged(here, "evaluations_to_success")
     assert found.verdict == UNDECIDED
     assert found.why.startswith("neither comes")
+    row = dict(zip((shown := table([found])).header, shown.cells[0], strict=True))
+    assert (row["Here"].text, row["Equivalent"].text) == (UNDECIDED, NONE)
 
 
 def test_the_verdicts_are_kept_for_other_programs(tmp_path):
@@ -120,8 +124,22 @@ def test_other_targets_and_budgets_are_what_one_counts_by_hand():
         here.traces["pso", *key][1][1] *= 1.02
     [rows] = [block.rows for block in section([here], 100).blocks if not isinstance(block, str)]
     found = {row[0]: row[1:] for row in rows}
+    areas = {label: found[label].pop() for label in found}
     assert found["new"] == ["100\u202f%"] * 4 + ["100"] * 3 + ["9"] * 2 + ["1"]
     assert found["pso"] == ["0\u202f%"] * 2 + ["100\u202f%"] * 2 + ["not reached", "100", "100", "9", "9", "1.02"]
+    # nine times the best known up to the last of the 200 points on the curve
+    assert float(areas["new"]) == pytest.approx((199 * (1 - np.log10(9)) + 1) / 200, abs=1e-3)
+    assert float(areas["pso"]) < float(areas["new"])
+
+
+def test_quality_against_time_spreads_a_trial_over_its_evaluations():
+    here = problem({"pso": 1.0, "new": 1.0}, instances=2, trials=2, noise=0.0)
+    here.rows["pso"]["seconds"] = 4.0
+    seconds, ratios = curve(here, "pso")
+    assert (seconds[0], seconds[-1]) == (pytest.approx(0.04), pytest.approx(4.0))
+    assert (ratios[0], ratios[-1]) == (pytest.approx(9.0), 1.0)
+    here.rows["new"]["seconds"] = np.nan
+    assert np.isnan(curve(here, "new")[0]).all()
 
 
 def test_an_optimizer_that_has_fewer_instances_is_compared_on_those():

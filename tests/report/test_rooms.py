@@ -19,6 +19,7 @@ ROOMS = [
     "diagnosis_study",
     "fit",
     "control",
+    "index",
 ]
 
 

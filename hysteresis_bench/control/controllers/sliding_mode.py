@@ -8,7 +8,8 @@ Legend: x reference, x1 measured position, x2 its velocity, s the sliding functi
 s = 0, epsilon and rho the reaching law s' = -epsilon sgn(s) - rho s. The u of (15) is the input v of the linear
 section; the inverse hysteresis turns it into a voltage.
 
-Ours: x1 and x2 come from an observer, see `observer`; the law is evaluated at every sample and held.
+The paper does not say where x1 and x2 come from. As printed, we take the reading and its difference; ours is an
+observer, see `observer`. The law is evaluated at every sample and held.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.closed_loop import Target
 from hysteresis_bench.control.feed_forward import LinearSection
-from hysteresis_bench.control.observer import Observer
+from hysteresis_bench.control.observer import Differences, Observer
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +35,7 @@ class SlidingMode:
     """
 
     linear: LinearSection
-    observer: Observer
+    observer: Observer | Differences
     convergence: float
     epsilon: float
     rho: float

@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import pandas as pd
 
-from hysteresis_bench.control.comparison import FEED_FORWARD, MEANINGS, PI, SLIDING, Comparison
+from hysteresis_bench.control.bench import FEED_FORWARD, MEANINGS, PI, SLIDING
+from hysteresis_bench.control.comparison import Comparison
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.report.shared.blocks import Bullets, Cell, Figures, Table, Terms
 from hysteresis_bench.report.shared.page import Page, Section
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from rich.console import Console
 
 PAGE, SCORES, RESPONSES = "control.html", "control.csv", "responses.csv"
+
+COLOURS = (*SERIES, MUTED)
+"""Of the controllers, in their order."""
 
 Parts = Mapping[str, pd.DataFrame]
 """Controller -> its run along one reference."""
@@ -166,7 +170,7 @@ def _followed(folder: Path, reference: str, parts: Parts, names: list[str], unit
         shown = [name for name in names if name in (FEED_FORWARD, PI, SLIDING)]
         for name in shown:
             part = _start(parts[name])
-            axes.plot(part["time"], part["displacement"], color=SERIES[names.index(name)], linewidth=1.1, label=name)
+            axes.plot(part["time"], part["displacement"], color=COLOURS[names.index(name)], linewidth=1.1, label=name)
         part = _start(parts[shown[0]])
         axes.plot(part["time"], part["wanted"], color=INK, linewidth=0.9, linestyle=(0, (4, 3)), label="reference")
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Displacement", units, "output"))
@@ -186,7 +190,7 @@ def _erred(folder: Path, reference: str, parts: Parts, names: list[str], units: 
         axes.axhline(0, color=MUTED, linewidth=0.8)
         for name in names:
             part = _start(parts[name])
-            axes.plot(part["time"], part["error"], color=SERIES[names.index(name)], linewidth=0.9, label=name)
+            axes.plot(part["time"], part["error"], color=COLOURS[names.index(name)], linewidth=0.9, label=name)
         axes.set_yscale("symlog", linthresh=0.01)
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Error", units, "output"))
         legend(axes, 3)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ HOLDS, FAILS, EQUIVALENT, UNDECIDED = "holds", "does not hold", "makes no differ
 VERDICTS = {"better": HOLDS, "worse": FAILS, "equivalent": EQUIVALENT}
 CLAIMS, ABLATIONS = "The paper's claims in our trials", "What the parts of the paper's algorithm are worth"
 ABSENT = "the course of the searches was not kept"
+NOT_STAGED = "no stage was run on every trial"
 
 
 @dataclass(frozen=True)
@@ -44,12 +45,18 @@ class Judged:
 
 
 def judge(published: Published, problems: list[Problem]) -> list[Judged]:
-    """Every claim on every problem; p is Holm-corrected over the claims of a problem."""
+    """Every claim on every problem; p is Holm-corrected over the claims of a problem.
+
+    A claim on what follows a problem is asked of that one; of the first where nothing followed.
+    """
     judged = []
+    known = {claim.metric for claim in published.claim if any(problem.has(claim.metric) for problem in problems)}
     for problem in problems:
         labels = set(problem.labels)
         asked = [claim for claim in published.claim if not claim.ablation or {claim.better, claim.worse} <= labels]
-        told = [claim for claim in asked if problem.traces or claim.metric != TO_SUCCESS]
+        follows = {claim.metric for claim in asked if claim.metric not in known and problem is problems[0]}
+        asked = [claim for claim in asked if problem.has(claim.metric) or claim.metric in follows]
+        told = [claim for claim in asked if claim.metric not in (follows if problem.traces else follows | {TO_SUCCESS})]
         able = [claim for claim in told if {claim.better, claim.worse} <= labels]
         pairs = [
             (problem.sample(claim.better, claim.metric), problem.sample(claim.worse, claim.metric)) for claim in able
@@ -61,7 +68,11 @@ def judge(published: Published, problems: list[Problem]) -> list[Judged]:
             for claim in told
             if claim not in able
         ]
-        judged += [Judged(claim, problem.name, UNDECIDED, ABSENT) for claim in asked if claim not in told]
+        judged += [
+            Judged(claim, problem.name, UNDECIDED, NOT_STAGED if claim.metric in follows else ABSENT)
+            for claim in asked
+            if claim not in told
+        ]
     return judged
 
 
@@ -71,6 +82,7 @@ def _judged(claim: Claim, problem: Problem, found: statistics.Comparison) -> Jud
     verdict, why = VERDICTS.get(found.verdict, UNDECIDED), found.words
     if claim.metric == TO_SUCCESS and found.p is not None and np.mean(np.isinf(ours) & np.isinf(theirs)) > 0.5:
         verdict, why = UNDECIDED, "neither comes to the best known in most of them"
+        found = replace(found, practical=None)  # never there is not equally fast
     return Judged(claim, problem.name, verdict, why, medians, found, problem.several, problem.counted)
 
 

@@ -48,8 +48,8 @@ class Implied(Strict):
 
 
 class Claim(Strict):
-    """A sentence of the paper as a comparison: `better` has the lower `metric`, a column of trials.csv or
-    evaluations_to_success.
+    """A sentence of the paper as a comparison: `better` has the lower `metric`, a column of trials.csv or of
+    staged-trials.csv, or evaluations_to_success.
 
     ablation : the question is ours, what a part of the paper's algorithm does for it
     """

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +15,7 @@ from hysteresis_bench.report.searches.looks import Look
 from hysteresis_bench.report.shared.theme import INK, MUTED, Picture, picture, spread_labels
 from hysteresis_bench.report.trials.best_known import NEAR
 from hysteresis_bench.report.trials.problem import Problem
+from hysteresis_bench.study.results import TRIALS
 
 EXCESSES = np.geomspace(0.01, 10.0, 25)
 """Targets of the runtime distribution: fitness within these shares above the best known."""
@@ -129,7 +131,9 @@ def all_trials(folder: Path, name: str, problem: Problem, *, looks: Mapping[str,
     caption += "a trial; bar: quartiles; tick: median; dotted: 1 % above the best known, where success begins."
     if any(np.isfinite(values).sum() > DOTS for values in ratios.values()):
         caption += f" Where there are more than {DOTS} trials, as many are drawn, evenly from the best to the worst."
-    return picture(folder, name, (4.6, 0.9 + 0.185 * len(ratios)), alt=alt, caption=caption, draw=draw)
+    data = TRIALS if (folder / TRIALS).is_file() else ""
+    size = (4.6, 0.9 + 0.185 * len(ratios))
+    return replace(picture(folder, name, size, alt=alt, caption=caption, draw=draw), data=data)
 
 
 def _spread(values: Array) -> Array:

@@ -12,7 +12,7 @@ from hysteresis_bench.report.shared.text import number, percent, unit_cell
 from hysteresis_bench.report.shared.theme import Picture
 
 NUMBER = re.compile(
-    r"–|failed|not reached|not determined|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to|of|±) .*)?"
+    r"–|failed|not reached|not determined|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to |of |± |\().*)?"
 )
 
 

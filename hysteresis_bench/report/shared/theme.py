@@ -64,12 +64,16 @@ LEGIBLE = 0.9
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure on disk and in the page. name : of its file; alt : what it shows, for who cannot see it."""
+    """A figure on disk and in the page.
+
+    name : of its file;  alt : what it shows, for who cannot see it;  data : the file beside it that holds its numbers
+    """
 
     name: str
     alt: str
     caption: str
     inline: str
+    data: str = ""
 
 
 def picture(

@@ -11,15 +11,35 @@ import pandas as pd
 from hysteresis_bench.report.shared.signal_figures import Parts, loop
 from hysteresis_bench.report.shared.text import Units, named
 from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, legend, picture
+from hysteresis_bench.study.afterwards.stages import CONTROL
 
 CYCLES = 3
 """Cycles of a periodic record that a figure shows: all of them would be a smear."""
+
+
+def loop_figures(folder: Path, number: int, responses: pd.DataFrame, *, units: Units) -> list[Picture]:
+    """Closed loops of the stage's first controller, one a reference. number : in the names of figures"""
+    if responses.empty:
+        return []
+    loops = responses[responses["role"].str.startswith(CONTROL)]
+    loops = loops[loops["role"].isin(loops["role"].unique()[:1])]
+    found = []
+    for j, ((role, record), rows) in enumerate(loops.groupby(["role", "record"], sort=False), 1):
+        parts = {
+            str(label): (_beginning(part), colour)
+            for (label, part), colour in zip(rows.groupby("optimizer", sort=False), SERIES, strict=False)
+        }
+        caption = f"{str(role).removeprefix(CONTROL)}, {record}: reference and displacement above, displacement minus "
+        caption += "reference below."
+        found.append(_fit(folder, f"stage-{number}-control-{j}", parts, units, caption, truth="reference"))
+    return found
 
 
 def stage_figures(
     folder: Path, number: int, responses: pd.DataFrame, *, units: Units
 ) -> tuple[list[Picture], list[Picture]]:
     """Fits over time and loops, one of each a record. responses : of the stage;  number : in the names of figures"""
+    responses = responses if responses.empty else responses[~responses["role"].str.startswith(CONTROL)]
     fits: list[Picture] = []
     loops: list[Picture] = []
     if responses.empty:
@@ -37,13 +57,13 @@ def stage_figures(
     return fits, loops
 
 
-def _fit(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> Picture:
-    """Measured and simulated above, the errors below."""
+def _fit(folder: Path, name: str, parts: Parts, units: Units, caption: str, *, truth: str = "measured") -> Picture:
+    """What is to be met and what meets it above, the errors below."""
     measured, _ = next(iter(parts.values()))
 
     def draw(figure: Any) -> None:
         upper, lower = figure.subplots(2, 1, sharex=True)
-        upper.plot(measured["time"], measured["output"], color=MUTED, linewidth=2.6, alpha=0.55, label="measured")
+        upper.plot(measured["time"], measured["output"], color=MUTED, linewidth=2.6, alpha=0.55, label=truth)
         lower.axhline(0, color=MUTED, linewidth=0.8)
         for who, (rows, colour) in parts.items():
             upper.plot(rows["time"], rows["simulated"], color=colour, linewidth=1.0, label=who)
@@ -54,9 +74,13 @@ def _fit(folder: Path, name: str, parts: Parts, units: Units, caption: str) -> P
         legend(upper, 3)
         figure.align_ylabels()
 
-    return picture(
-        folder, name, (4.6, 3.6), alt=f"Measured and simulated output. {caption}", caption=caption, draw=draw
-    )
+    return picture(folder, name, (4.6, 3.6), alt=f"Output over time. {caption}", caption=caption, draw=draw)
+
+
+def _beginning(rows: pd.DataFrame) -> pd.DataFrame:
+    """Of a fast reference the first part: all of it would be a smear."""
+    begin, end = float(rows["time"].iloc[0]), float(rows["time"].iloc[-1])
+    return rows if end - begin > 1.0 else rows[rows["time"] <= begin + 0.2]
 
 
 def _window(rows: pd.DataFrame) -> pd.DataFrame:

@@ -12,12 +12,13 @@ import pandas as pd
 
 from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.paper.published import Table as Printed
-from hysteresis_bench.report.shared.blocks import Block, Figures, Heading, Table
+from hysteresis_bench.report.shared.blocks import Block, Details, Figures, Heading, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import percent
 from hysteresis_bench.report.shared.theme import Picture
-from hysteresis_bench.report.stages.figures import stage_figures
+from hysteresis_bench.report.stages.figures import loop_figures, stage_figures
 from hysteresis_bench.report.stages.rows import mean_error
+from hysteresis_bench.report.stages.spread import spread_tables
 from hysteresis_bench.report.stages.tables import check, linear_section, tracking, ways
 from hysteresis_bench.study.afterwards.stages import LARGEST, RMSE, STAGED
 from hysteresis_bench.study.results import Results
@@ -26,20 +27,27 @@ from hysteresis_bench.study.study_file import StageSpec
 
 @dataclass(frozen=True)
 class StageView:
-    """One stage as the page shows it."""
+    """One stage as the page shows it. spread : over all trials;  tables : of the best trials, on the first instance"""
 
     name: str
     sentences: list[str]
+    spread: list[Table]
     tables: list[Table]
     fits: list[Picture]
     loops: list[Picture]
+    controlled: list[Picture]
 
 
 def section(results: Results, published: Published, folder: Path) -> Section | None:
     """None where the study has no stage, or none has run."""
     blocks: list[Block] = []
     for view in stage_views(results, published, folder):
-        blocks += [Heading(view.name), *view.sentences, *view.tables, Figures(view.fits), Figures(view.loops, "small")]
+        best: list[Block] = [*view.tables]
+        if view.spread:
+            best = [*view.spread, Details("The best trial of each, on the first instance", view.tables)]
+        blocks += [Heading(view.name), *view.sentences, *best, Figures(view.fits), Figures(view.loops, "small")]
+        if view.controlled:
+            blocks.append(Details("Closed loops on the rig, as the paper's Figure 15", [Figures(view.controlled)]))
     return Section("stages", "The linear section, and the whole model", blocks) if blocks else None
 
 
@@ -65,7 +73,10 @@ def _view(i: int, spec: StageSpec, results: Results, published: Published, folde
     drawn = results.responses
     mine = drawn if drawn.empty else drawn[drawn["problem"] == spec.name]
     fits, loops = stage_figures(folder, i, mine, units=units)
-    return StageView(spec.name, list(_sentences(spec, rows, checked)), tables, fits, loops)
+    controlled = loop_figures(folder, i, mine, units=units)
+    staged = results.staged if results.staged.empty else results.staged[results.staged["stage"] == spec.name]
+    spread = spread_tables(spec, staged, published if spec.check else Published(), unit)
+    return StageView(spec.name, list(_sentences(spec, rows, checked)), spread, tables, fits, loops, controlled)
 
 
 def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> Iterator[str]:
@@ -84,7 +95,8 @@ def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> I
         ours = [mean_error(spec, rows, label, way=STAGED, quantity=quantity) for label in (first, second)]
         if None in ours:
             continue
-        said = f"Mean {quantity} over the {len(spec.check)} signals: {_less(first, second, ours)}"
+        said = f"Mean {quantity} over the {len(spec.check)} signals, of the best trials on the first instance: "
+        said += _less(first, second, ours)
         for table in checked:
             names = [f"{label}_{column}" for label in (first, second)]
             if set(names) <= set(table.columns):

@@ -26,6 +26,11 @@ from hysteresis_bench.study.study_file import ClosingSpec
 PLACE = "closing"
 """What the names of the section's figures begin with."""
 
+OLDER = (
+    "This diagnosis was made by an older version of the program, which asked less of the data than today’s; the trials "
+    f"are as they were. Remove the folder {CLOSING} and run the study again to have it anew."
+)
+
 
 def section(results: Results, folder: Path) -> Section | None:
     """None where the study asks for no diagnosis; the section's figures are written to the folder.
@@ -47,9 +52,15 @@ def section(results: Results, folder: Path) -> Section | None:
 def closing_in_words(closing: Closing) -> str:
     """One sentence: the verdict, or why there is none."""
     if closing.finished:
-        return f"Closing the loop: {closing.diagnosis['headline']}"
+        age = " (A diagnosis of an older version.)" if _older(closing) else ""
+        return f"Closing the loop: {closing.diagnosis['headline']}{age}"
     status, reason = closing.outcome["status"], closing.outcome["reason"]
     return sentence(f"The loop was not closed, the diagnosis has no result ({status}): {reason}")
+
+
+def _older(closing: Closing) -> bool:
+    """Whether the diagnosis says nothing of what one of today says."""
+    return not set(complete(closing.diagnosis)) <= set(closing.diagnosis)
 
 
 def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
@@ -67,6 +78,8 @@ def _found(closing: Closing, folder: Path) -> Iterator[Block]:
     found, units = complete(closing.diagnosis), closing.units
     noise = found["noise_rms"] or 0.0
     yield Paragraph(found["headline"], "strong")
+    if _older(closing):
+        yield Paragraph(OLDER, "note")
     if found["ties"]:
         yield "What these data cannot tell apart:"
         yield Bullets(ties_in_words(found["ties"]))

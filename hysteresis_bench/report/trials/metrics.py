@@ -13,6 +13,8 @@ NAMES = {
     "max_error": "largest relative error",
     "rmse": "RMSE",
     "held_out_rmse": "held-out RMSE",
+    "check_error": "mean largest error on the check",
+    "check_rmse": "mean RMSE on the check",
 }
 
 

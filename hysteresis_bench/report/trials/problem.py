@@ -71,6 +71,10 @@ class Problem:
         rows = self.rows[label]
         return list(zip(map(int, rows["instance"]), map(int, rows["trial"]), strict=True))
 
+    def has(self, metric: str) -> bool:
+        """Whether it is known of any trial."""
+        return metric == TO_SUCCESS or any(metric in rows.columns for rows in self.rows.values())
+
     def values(self, label: str, metric: str) -> Array:
         """(trials,) of one metric, a column of trials.csv or evaluations_to_success."""
         if metric == TO_SUCCESS:

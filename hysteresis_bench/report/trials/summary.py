@@ -22,7 +22,7 @@ def problems(results: Results, budget: int | None = None, any_budget: bool = Fal
     other = {spec.name for spec in results.study.optimizer if results.study.budget_of(spec) != mine}
     found = []
     for spec in results.study.problem:
-        here = results.trials[results.trials["problem"] == spec.name]
+        here = _with_stages(results, spec.name)
         labels = [label for label in _labels(results, here) if any_budget or label not in other]
         rows = {label: here[here["optimizer"] == label].sort_values(["instance", "trial"]) for label in labels}
         traces = {
@@ -34,6 +34,17 @@ def problems(results: Results, budget: int | None = None, any_budget: bool = Fal
             reference = _reference(results.study, labels)
             found.append(Problem(spec.name, list(rows), rows, traces, reference, best_known(here)))
     return found
+
+
+def _with_stages(results: Results, problem: str) -> pd.DataFrame:
+    """The trials of a problem, with what followed each of them as further columns."""
+    rows, staged = results.trials[results.trials["problem"] == problem], results.staged
+    following = [stage.name for stage in results.study.stage if stage.after == problem]
+    if staged.empty or not following:
+        return rows
+    key = ["optimizer", "instance", "trial"]
+    behind = staged[staged["stage"].isin(following)].drop_duplicates(key)
+    return rows.merge(behind.drop(columns=["stage", "made_of", "fault"]), how="left", on=key)
 
 
 def _reference(study: Study, labels: list[str]) -> str:

@@ -12,6 +12,7 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.control.bench import PRINTED
 from hysteresis_bench.control.comparison import compare, stepped_rig
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
@@ -19,6 +20,7 @@ from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 from hysteresis_bench.study.afterwards.best_fits import RESPONSE_COLUMNS, best_of
 from hysteresis_bench.study.afterwards.linear_section import fitted
+from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.problems import Built, build_problem, build_system
 from hysteresis_bench.study.results import FINISHED
 from hysteresis_bench.study.study_file import StageSpec, Study
@@ -26,7 +28,7 @@ from hysteresis_bench.study.study_file import StageSpec, Study
 COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")
 STAGED, HELD, FITTED, LARGEST, RMSE = "staged", "held", "fitted", "largest error", "rmse"
 TRACKING = {"t_error": "largest tracking error", "t_rmse": "tracking rmse"}
-BEST = "best of all"
+BEST, CONTROL = "best of all", "control: "
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,7 +49,8 @@ class Whole:
 def run_stages(
     study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, folder: Path
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses.
+    """Every stage of the study: one row a quantity (COLUMNS), and the staged models' responses; of a closed loop the
+    reference is the output, what is reached the simulated one, and the role CONTROL with the controller behind it.
 
     folder : where relative data files are looked for. An absent number is None: the errors of a section that
     is unstable, a standard error that the data cannot tell. Errors are in units of the output.
@@ -55,39 +58,39 @@ def run_stages(
     rows: list[dict[str, Any]] = []
     parts: list[pd.DataFrame] = []
     for stage in study.stage:
-        data = _data(stage, study, folder)
+        data = stage_data(stage, study, folder)
         for whole in _wholes(stage, trials, built, data):
             about = {"stage": stage.name, "optimizer": whole.optimizer, "way": whole.way, "fault": whole.fault}
             rows += [about | row for row in whole.rows]
             if whole.fault:
                 rows += [about | row for record in data.dataset.records for row in _errors(record, None)]
                 continue
-            found = simulated(whole.system, data.dataset.records, whole.values)
-            for record, response in zip(data.dataset.records, found, strict=True):
-                rows += [about | row for row in _errors(record, response)]
+            rows += [about | row for row in errors_on(whole, data)]
             if whole.way == STAGED:
+                found = simulated(whole.system, data.dataset.records, whole.values)
                 table = response_table(data.dataset, {"simulated": found})
                 checked = table[table["record"].isin(stage.check)]
                 named = checked.assign(problem=stage.name, optimizer=whole.optimizer, role="check")
                 parts.append(named[list(RESPONSE_COLUMNS)])
             if whole.optimizer in stage.control and whole.way == STAGED:
-                rows += [about | row for row in _tracked(stage, study, whole, data)]
+                tracked, courses = _tracked(stage, study, whole, data)
+                rows += [about | row for row in tracked]
+                parts.append(courses)
     return pd.DataFrame(rows, columns=list(COLUMNS)), pd.concat(parts) if parts else pd.DataFrame()
 
 
-def _data(stage: StageSpec, study: Study, folder: Path) -> Built:
-    """The records of the stage, and the whole model on those that it fits."""
+def stage_data(stage: StageSpec, study: Study, folder: Path, instance: int = FIRST) -> Built:
+    """The records of the stage, of one instance, and the whole model on those that it fits."""
     after = next(spec for spec in study.problem if spec.name == stage.after)
     changed: dict[str, Any] = {"name": stage.name, "model": stage.model, "settings": stage.settings}
     changed |= {"effects": [], "fixed": {}, "bounds": {}, "scaling": None, "profile": [], "box": "model"}
-    return build_problem(
-        after.model_copy(update=changed | {"fitted": stage.fitted, "held_out": stage.check}), study.seed, folder
-    )
+    changed |= {"fitted": stage.fitted, "held_out": stage.check}
+    return build_problem(after.model_copy(update=changed), study.seed, folder, instance)
 
 
 def _wholes(stage: StageSpec, trials: pd.DataFrame, built: Mapping[str, Built], data: Built) -> Iterator[Whole]:
     for label, found in _best(trials, stage.after, built, stage.optimizers):
-        yield _staged(stage, label, found, built[stage.after].problem.system, data)
+        yield section_behind(stage, label, found, built[stage.after].problem.system, data)
     if stage.beside is None:
         return
     of = built[stage.beside].problem
@@ -113,7 +116,7 @@ def _best(
             yield f"{BEST} ({winner})" if label == BEST else label, dict(zip(names, map(float, values), strict=True))
 
 
-def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: System, data: Built) -> Whole:
+def section_behind(stage: StageSpec, label: str, found: Mapping[str, float], static: System, data: Built) -> Whole:
     """Hold what the static trial found, fit the linear section behind it."""
     every = {**static.fixed, **found}
     held = {name: every[name] for name in data.problem.space.names if name not in stage.fit}
@@ -128,23 +131,41 @@ def _staged(stage: StageSpec, label: str, found: Mapping[str, float], static: Sy
     return Whole(label, STAGED, system, section.values, tuple(rows), section.fault)
 
 
-def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> Iterator[dict[str, Any]]:
-    """Every controller along every reference, on the rig; a row with the fault where the model allows none."""
+def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> tuple[list[dict[str, Any]], pd.DataFrame]:
+    """Every controller along every reference, on the rig, and the courses of the stage's, or of the paper's; a row with
+    the fault where the model allows none."""
     after = next(spec for spec in study.problem if spec.name == stage.after)
     assert after.rig is not None
+    try:
+        rig = stepped_rig(after.rig, after.rig_settings)
+        found = compare(model_of(stage, whole, data), rig, after.rig, seed=study.seed)
+    except ValueError as fault:
+        row = _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"])
+        return [row | {"fault": str(fault)}], pd.DataFrame()
+    rows = [
+        _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
+        for score in found.scores.to_dict("records")
+        for key, quantity in TRACKING.items()
+    ]
+    courses = found.responses[found.responses["controller"].isin(stage.controllers or [PRINTED])]
+    names = {"reference": "record", "voltage": "input", "wanted": "output", "displacement": "simulated"}
+    named = courses.rename(columns=names).assign(problem=stage.name, optimizer=whole.optimizer)
+    return rows, named.assign(role=CONTROL + named["controller"])[list(RESPONSE_COLUMNS)]
+
+
+def model_of(stage: StageSpec, whole: Whole, data: Built) -> FittedModel:
+    """As a controller takes it."""
     found = {row["name"]: row for row in whole.rows}
     estimates = {name: Estimate(row["value"], row["standard_error"], row["unit"]) for name, row in found.items()}
     error = {"fitted": accuracy(whole.system, data.dataset.fitted, whole.values).as_dict()}
-    fitted_model = FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
-    try:
-        rig = stepped_rig(after.rig, after.rig_settings)
-        scores = compare(fitted_model, rig, after.rig, seed=study.seed).scores
-    except ValueError as fault:
-        yield _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"]) | {"fault": str(fault)}
-        return
-    for score in scores.to_dict("records"):
-        for key, quantity in TRACKING.items():
-            yield _row(quantity, score["reference"], score[key], score["unit"]) | {"controller": score["controller"]}
+    return FittedModel(stage.model, stage.settings, (), {}, data.dataset.units, estimates, error=error)
+
+
+def errors_on(whole: Whole, data: Built) -> list[dict[str, Any]]:
+    """The errors on every record of the stage."""
+    found = simulated(whole.system, data.dataset.records, whole.values)
+    pairs = zip(data.dataset.records, found, strict=True)
+    return [row for record, response in pairs for row in _errors(record, response)]
 
 
 def _errors(record: Record, response: Array | None) -> list[dict[str, Any]]:

@@ -20,18 +20,8 @@ FINISHED = ("done", "finished-early")
 """Statuses of a trial that has a result."""
 
 KEY = ("problem", "optimizer", "instance", "trial")
-NUMBERS = (
-    "instance",
-    "trial",
-    "evaluations",
-    "fitness",
-    "rmse",
-    "relative_rms",
-    "max_error",
-    "held_out_rmse",
-    "seconds",
-)
-
+MEASURED = ("evaluations", "fitness", "rmse", "relative_rms", "max_error", "held_out_rmse", "seconds")
+NUMBERS = ("instance", "trial", *MEASURED)
 
 FIRST = 1
 """The instance that is the rig as it stands, or the data; the only one where a study asks for no more."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.random import Generator
@@ -19,6 +19,7 @@ class Swarm:
     speed_limit : largest |velocity| of a coordinate; the box is 1 wide
     best, best_loss : the best point that each particle has visited, (dimension, particles), and its loss, (particles,)
     leader, leader_loss : the best point that any has visited, (dimension, 1), and its loss
+    loss : of the positions, (particles,), once evaluated
 
     Bounds: a particle that would leave the box stops on its wall, with no velocity in that coordinate.
     """
@@ -30,6 +31,7 @@ class Swarm:
     best_loss: Array
     leader: Array
     leader_loss: float = np.inf
+    loss: Array = field(default_factory=lambda: np.empty(0))
 
     @classmethod
     def scattered(cls, start: Start, rng: Generator, particles: int, speed_limit: float) -> Swarm:
@@ -40,7 +42,7 @@ class Swarm:
 
     def evaluate(self, objective: Objective) -> None:
         """Score all particles; update what each, and what the swarm, knows as best. Ties change nothing."""
-        losses = objective.many(self.position)
+        self.loss = losses = objective.many(self.position)
         better = losses < self.best_loss
         self.best = np.where(better, self.position, self.best)
         self.best_loss = np.where(better, losses, self.best_loss)

@@ -11,10 +11,12 @@ What the paper leaves open, ours:
   swarm would still be unstable, omega 0.9 with c1 + c2 = 5, for most of the run.)
 - The first velocities are uniform within the limit, which is 0.2 of a parameter's range; a particle that
   would leave the box stops on its wall, with no velocity across it.
-- A particle enters the GA step as its Pbest, whose fitness it has; the M_k better ones fly on as they were.
+- A particle enters the GA step as its Pbest, whose fitness it has; the M_k better ones fly on as they were. With
+  `enters = "position"` the step is read to the letter: the population is where the particles are.
 - The operators are those of `ga`: random pairs exchange genes, a gene that mutates is drawn anew.
 - A child that neither operator touched is its parent and is neither evaluated nor entered twice.
-- A child that survives takes a particle's place at rest, and its own point is its Pbest.
+- A child that survives takes a particle's place at rest, and its own point is its Pbest; to the letter, where
+  neither is named, it keeps the velocity and the Pbest of the place, unless its own point is better.
 - Maxgen counts PSO iterations; the budget is what ends the run. 4000 iterations of 50 with the first swarm are
   200 050 evaluations, and the 40 GA steps add at most 50 each.
 """
@@ -31,6 +33,8 @@ from hysteresis_plugins.optimizers._settings import at_least, between, positive
 from hysteresis_plugins.optimizers._swarm import Swarm
 from hysteresis_plugins.optimizers.ga import exchanged, mutated
 
+BEST, POSITION = "best", "position"
+
 
 @dataclass(frozen=True)
 class Gpmix(Optimizer):
@@ -41,6 +45,7 @@ class Gpmix(Optimizer):
     cognitive, social, inertia : (first, last) c1, c2 and omega of a cycle
     crossover_probability, mutation_probability : Pc, Pm
     speed_limit : largest velocity as a share of a parameter's range
+    enters : what of a particle the GA step takes: its "best" or its "position"
     accuracy : the search ends when the best loss, in the loss's own unit, is at most this after a cycle
     """
 
@@ -53,11 +58,14 @@ class Gpmix(Optimizer):
     mutation_probability: float = 0.2
     speed_limit: float = 0.2
     accuracy: float = 1e-5
+    enters: str = "best"
 
     def __post_init__(self) -> None:
         at_least(2, particles=self.particles)
         at_least(1, cycle=self.cycle)
         at_least(0, accuracy=self.accuracy)
+        if self.enters not in (BEST, POSITION):
+            raise ValueError(f'enters = "{self.enters}" must be "{BEST}" or "{POSITION}".')
         positive(speed_limit=self.speed_limit)
         between(0, 1, crossover_probability=self.crossover_probability, mutation_probability=self.mutation_probability)
         for name, values in (("cognitive", self.cognitive), ("social", self.social), ("inertia", self.inertia)):
@@ -85,9 +93,11 @@ class Gpmix(Optimizer):
 
     def evolve(self, swarm: Swarm, objective: Objective, rng: Generator) -> None:
         """The GA step: cross and mutate what is no better than the mean, keep the best of before and after."""
-        order = np.argsort(swarm.best_loss, kind="stable")  # step 3
-        worse = order[swarm.best_loss[order] >= swarm.best_loss.mean()]
-        parents = swarm.best[:, worse]
+        at_best = self.enters == BEST
+        points, known = (swarm.best, swarm.best_loss) if at_best else (swarm.position, swarm.loss)
+        order = np.argsort(known, kind="stable")  # step 3
+        worse = order[known[order] >= known.mean()]
+        parents = points[:, worse]
         children = mutated(  # step 4
             exchanged(parents, self.crossover_probability, rng), self.mutation_probability, rng
         )
@@ -95,12 +105,15 @@ class Gpmix(Optimizer):
         if children.shape[1] == 0:
             return
         losses = objective.many(children)
-        ranks = np.argsort(np.concatenate([swarm.best_loss[worse], losses]), kind="stable")[: worse.size]  # step 5
+        ranks = np.argsort(np.concatenate([known[worse], losses]), kind="stable")[: worse.size]  # step 5
         born = ranks[ranks >= worse.size] - worse.size
         gone = np.delete(worse, ranks[ranks < worse.size])
-        swarm.position[:, gone] = swarm.best[:, gone] = children[:, born]  # step 6
-        swarm.velocity[:, gone] = 0.0
-        swarm.best_loss[gone] = losses[born]
+        swarm.position[:, gone] = children[:, born]  # step 6
+        if at_best:
+            swarm.velocity[:, gone] = 0.0
+        new = at_best | (losses[born] < swarm.best_loss[gone])
+        swarm.best[:, gone[new]] = children[:, born[new]]
+        swarm.best_loss[gone[new]] = losses[born[new]]
         winner = int(np.argmin(losses))
         if losses[winner] < swarm.leader_loss:
             swarm.leader, swarm.leader_loss = children[:, winner : winner + 1].copy(), float(losses[winner])

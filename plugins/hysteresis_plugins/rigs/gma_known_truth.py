@@ -12,7 +12,7 @@ from numpy.random import Generator
 from hysteresis_bench.contracts import Rig
 from hysteresis_bench.signals import Dataset, Record, Signal
 from hysteresis_plugins.models.free_energy_gma import REDUCED, FreeEnergyGma
-from hysteresis_plugins.rigs.gma import SINES
+from hysteresis_plugins.rigs._gma_bench import SINES
 
 TRUTH = {**REDUCED, "M_R": 4.7e5, "eta": 1.3, "H_c": 2.4e3, "b": 3.7e4, "c": 0.5}
 """Ours: round numbers close to what fits the `gma` rig."""

@@ -1,0 +1,110 @@
+"""The tables of a stage over every trial and instance: what the paper prints beside a median and its spread."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from hysteresis_bench import statistics
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.report.paper.published import Published
+from hysteresis_bench.report.shared.blocks import Cell, Table
+from hysteresis_bench.report.shared.text import NONE, named, number
+from hysteresis_bench.study.study_file import StageSpec
+
+CHECKS = {"error": ("check_error", "F_error, eq. (12)"), "rmse": ("check_rmse", "F_rmse, eq. (13)")}
+LOOPS = {"error": ("tracking_error", "T_error"), "rmse": ("tracking_rmse", "T_rmse")}
+
+
+def spread_tables(spec: StageSpec, staged: pd.DataFrame, published: Published, unit: str) -> list[Table]:
+    """The section, the check and the closed loops of one stage; none where one trial is all there is.
+
+    staged : the rows of this stage, see staged_trials
+    """
+    if len(staged) <= len(spec.optimizers):
+        return []
+    units = {"output": unit}
+    printed = [table.columns for table in published.tables.values()]
+    sections = next((columns for columns in printed if {"optimizer", *spec.fit} <= set(columns)), {})
+    tables = [_table(f"{spec.name}: the linear section", staged, spec.optimizers, spec.fit, _by_optimizer(sections))]
+    checks = next((columns for columns in printed if "record" in columns), {})
+    for key, (metric, words) in CHECKS.items():
+        rows = [*(f"{metric}.{record}" for record in spec.check), metric]
+        theirs = _by_column(checks, "record", key, metric)
+        tables.append(_table(f"{spec.name}: {named(words, units, 'output')}", staged, spec.optimizers, rows, theirs))
+    loops = next((table for table in published.tables.values() if "reference" in table.columns), None)
+    for controller in spec.controllers:
+        its = loops.columns if loops and loops.controller == controller else {}
+        for key, (metric, words) in LOOPS.items():
+            name = f"{metric}.{controller}"
+            rows = [column for column in staged.columns if column.startswith(f"{name}.")] + [name]
+            title = f"{spec.name}: {controller}, {named(words, units, 'output')}"
+            tables.append(_table(title, staged, spec.control, rows, _by_column(its, "reference", key, name)))
+    return [table for table in tables if table.rows]
+
+
+Printed = Mapping[str, Mapping[str, float]]
+"""By optimizer and row."""
+
+
+def _table(title: str, staged: pd.DataFrame, labels: Sequence[str], names: Sequence[str], printed: Printed) -> Table:
+    """A row a quantity: what is printed, and our median with quartiles over instances."""
+    header, rows = ["Quantity"], []
+    for label in labels:
+        header += [f"{label}, published"] if label in printed else []
+        header.append(f"{label}, ours" if label in printed else label)
+    for name in (name for name in names if name in staged.columns):
+        row: list[str | Cell] = [Cell(_last(name), "line")]
+        for label in labels:
+            row += [number(printed[label].get(name))] if label in printed else []
+            row.append(_spread(_blocks(staged[staged["optimizer"] == label], name)))
+        rows.append(row)
+    instances, trials = staged["instance"].nunique(), len(staged[staged["optimizer"] == labels[0]])
+    over = f"{instances} instances, {trials} trials" if instances > 1 else f"{trials} trials"
+    return Table(f"{title}, over {over}", header, rows, "Median (lower to upper quartile), instances by their medians.")
+
+
+def _last(name: str) -> str:
+    """Of `check_rmse.sine-10-hz` the signal; a mean is called so."""
+    metric, _, rest = name.partition(".")
+    known = {metric for metric, _ in (*CHECKS.values(), *LOOPS.values())}
+    if metric not in known:
+        return name
+    signal = rest.partition(".")[2] if metric.startswith("tracking") else rest
+    return signal or "mean"
+
+
+def _blocks(rows: pd.DataFrame, name: str) -> Array:
+    """Medians of the instances, or the trials of a single one; inf where a section could not be used."""
+    values = rows[name].astype(float).fillna(np.inf)
+    by_instance = values.groupby(rows["instance"]).median()
+    blocks: Array = (by_instance if len(by_instance) > 1 else values).to_numpy(dtype=float)
+    return blocks
+
+
+def _spread(blocks: Array) -> str:
+    if blocks.size == 0:
+        return NONE
+    shares = {0.25: 3, 0.5: 4, 0.75: 3}
+    low, middle, high = (number(statistics.quantile(blocks, share), digits) for share, digits in shares.items())
+    return f"{middle} ({low} to {high})"
+
+
+def _by_optimizer(columns: Mapping[str, Sequence[float | str]]) -> Printed:
+    names = [str(name) for name in columns.get("optimizer", ())]
+    numbers = {key: values for key, values in columns.items() if key != "optimizer"}
+    return {name: {key: float(values[place]) for key, values in numbers.items()} for place, name in enumerate(names)}
+
+
+def _by_column(columns: Mapping[str, Sequence[float | str]], row: str, key: str, metric: str) -> Printed:
+    """Of columns LABEL_KEY with a name a row; the mean is computed here from the printed entries."""
+    names = [str(name) for name in columns.get(row, ())]
+    found = {}
+    for column, values in columns.items():
+        if column.endswith(f"_{key}"):
+            numbers = [float(value) for value in values]
+            of_rows = {f"{metric}.{name}": value for name, value in zip(names, numbers, strict=True)}
+            found[column.removesuffix(f"_{key}")] = of_rows | {metric: float(np.mean(numbers))}
+    return found
