@@ -11,6 +11,7 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
+from hysteresis_bench.diagnosis.families.finding import FamilyFinding
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage
@@ -33,6 +34,7 @@ class Diagnosis:
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
+    families : what none of its formulas fits, each with its curve
     slow_noise : what is left is noise that changes slowly
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
     model : ready to predict and to be written
@@ -61,6 +63,7 @@ class Diagnosis:
     units: Mapping[str, str]
     given_up: Fallback | None
     unseen: float
+    families: tuple[FamilyFinding, ...] = ()
     slow_noise: bool = False
     laws: Comparison | None = None
 
