@@ -33,7 +33,8 @@ class FamilyFinding:
     @property
     def sentence(self) -> str:
         curve = self.curve
-        moves = f"the {curve.of} {course(curve.x, curve.y)} with the {curve.along}"
+        along = np.log(curve.x) if curve.logarithmic else curve.x
+        moves = f"the {curve.of} {course(along, curve.y)} with the {curve.along}"
         return f"{self.effect} ({self.family}): {moves}; no formula here fits: the curve is in the model."
 
 

@@ -25,14 +25,14 @@ POINTS = 61
 class Spline:
     """A curve over a range, linear in its ordinates, which are parameters.
 
-    prefix : of their names;  knots : from 0 to 1, rising;  node : the knot at which the curve is 0
+    prefix : of their names;  knots : from 0 to 1, rising;  node : a knot at which the curve is 0
     held : level beyond the range, straight otherwise
     tied : the last ordinate is the first, so that a straight line is none of these curves
     """
 
     prefix: str
     knots: tuple[float, ...]
-    node: int
+    node: int | None
     held: bool = False
     tied: bool = False
 
