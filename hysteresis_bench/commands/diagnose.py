@@ -126,6 +126,8 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
         table.add_row(name, f"{estimate.value:.5g}", error, escape(estimate.unit))
     console.print(table)
 
+    for family in found.families:
+        console.print(escape(family.sentence), highlight=False)
     telling = sorted((test for test in found.after.tests if test.significant), key=lambda test: -test.share)
     for test in telling[:SHOWN]:
         console.print(escape(f"{test.record}: {test.words}."), highlight=False)

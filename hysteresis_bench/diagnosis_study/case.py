@@ -34,6 +34,7 @@ class Case:
 
     named : hidden effects that were claimed by name;  tied : claimed only as tied with another
     missed : hidden and neither;  extra : claimed without being hidden
+    family : those of the missed for which the free form of their family was claimed, which stands under extra
     before, after : RMSE held out, over the noise (an estimate where the rig does not tell);  fresh : the same, after,
         on records that were neither fitted nor held out, without what is imperfect about these
     unfitted : fitted RMSE of the bare model over the noise
@@ -50,6 +51,7 @@ class Case:
     tied: str = ""
     missed: str = ""
     extra: str = ""
+    family: str = ""
     verdict: str = ""
     noise: float | None = None
     before: float | None = None
@@ -62,6 +64,12 @@ class Case:
     def right(self) -> bool:
         """Every hidden effect named or tied with a claimed one, and none extra."""
         return self.status == "done" and not self.missed and not self.extra
+
+    @property
+    def right_by_family(self) -> bool:
+        """Every hidden effect named, tied, or its family named with its curve, and nothing else claimed."""
+        missed, extra, family = (text.split() for text in (self.missed, self.extra, self.family))
+        return self.status == "done" and sorted(missed) == sorted(family) and len(extra) == len(family)
 
 
 def run_case(ticket: CaseTicket) -> Case:
@@ -86,6 +94,7 @@ def run_case(ticket: CaseTicket) -> Case:
     }
     claimed = [name for name in found.effects if name != registry.RECORD_OFFSET]
     named, tied, missed, extra = compared(truth, claimed, rivals)
+    families = {one.effect: one.family for one in found.families}
     noise = _noise(seen, found.floor)
     before, after = (stage.held_out or stage.fitted for stage in (found.before, found.after))
     fresh = None
@@ -106,6 +115,7 @@ def run_case(ticket: CaseTicket) -> Case:
         tied=" ".join(tied),
         missed=" ".join(missed),
         extra=" ".join(extra),
+        family=" ".join(by_family(missed, [families[name] for name in extra if name in families])),
         verdict=found.verdict,
         noise=noise,
         before=before.rmse / noise,
@@ -138,6 +148,19 @@ def compared(
             left.remove(match)
         (tied if match else missed).append(entry)
     return named, tied, missed, left
+
+
+def by_family(missed: Sequence[str], families: Sequence[str]) -> list[str]:
+    """Which of the missed effects have their family among the claimed ones; each claim counts once."""
+    left, found = list(families), []
+    for entry in missed:
+        own = next(
+            (registry.effect(name).family for name in entry.split("|") if registry.effect(name).family in left), ""
+        )
+        if own:
+            left.remove(own)
+            found.append(entry)
+    return found
 
 
 def hidden_in(bench: BenchSpec, dataset: Dataset) -> tuple[str, ...]:

@@ -20,6 +20,10 @@ from hysteresis_bench.study.kept_files.reader import UNREADABLE
 STUDY, CASES, CONFUSION, FOLDER = "study.toml", "cases.csv", "confusion.csv", "cases"
 
 
+ADDED = ("family",)
+"""Fields that older files lack."""
+
+
 def read_cases(folder: Path) -> list[Case]:
     """All finished cases, by bench, then by number; told from cases.csv where the folder of their files is not kept.
 
@@ -44,7 +48,7 @@ def _case(content: Mapping[str, Any]) -> Case:
     """A case as its file or its row holds it. Raises TypeError for what is none."""
     values: dict[str, Any] = {}
     for field in fields(Case):
-        value, text = content[field.name], field.type == "str"
+        value, text = content.get(field.name, "") if field.name in ADDED else content[field.name], field.type == "str"
         if value is None or value != value:  # an empty cell
             value = "" if text else None
         kinds: tuple[type, ...] = (str,) if text else (int,) if field.type == "int" else (int, float, type(None))
@@ -74,7 +78,12 @@ def write_case(folder: Path, ticket: CaseTicket, case: Case) -> None:
 
 def write_tables(folder: Path, cases: Sequence[Case]) -> None:
     """cases.csv, a row a case, and confusion.csv."""
-    write_table(folder / CASES, pd.DataFrame([{**asdict(case), "right": case.right} for case in cases]))
+    write_table(
+        folder / CASES,
+        pd.DataFrame(
+            [{**asdict(case), "right": case.right, "right_by_family": case.right_by_family} for case in cases]
+        ),
+    )
     write_table(folder / CONFUSION, confusion(cases), index=True)
 
 

@@ -103,3 +103,34 @@ def late_response(time: Array, u: Array, share: Array, time_constants: Array) ->
         for j in range(swarm):
             v[i, j] = u[i, j if columns > 1 else 0] + weight[j] * total[j]
     return v
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def weighted_lags(time: Array, u: Array, weights: Array, time_constants: Array) -> Array:
+    """Parts of the signal arrive late, through lags of weights of their own: u + sum_k weight_k (lag_k(u) - u).
+
+    The arguments as in `late_response`; weights : float64[lags, swarm], of either sign; all 0: u to the last bit
+    """
+    samples, columns = u.shape
+    lags, swarm = time_constants.shape
+    v = np.empty((samples, swarm))
+    kept = np.empty((lags, swarm))
+    passed = np.empty((lags, swarm))
+    deviation = np.zeros((lags, swarm))
+    known = 0.0
+    for j in range(swarm):
+        v[0, j] = u[0, j if columns > 1 else 0]
+    for i in range(1, samples):
+        step = time[i] - time[i - 1]
+        if abs(step - known) > SAME_STEP * known:
+            known = step
+            for k in range(lags):
+                _decays(step, time_constants[k], kept[k], passed[k])
+        for j in range(swarm):
+            v[i, j] = u[i, j] if columns > 1 else u[i, 0]
+        for k in range(lags):
+            for j in range(swarm):
+                change = u[i, j] - u[i - 1, j] if columns > 1 else u[i, 0] - u[i - 1, 0]
+                deviation[k, j] = kept[k, j] * deviation[k, j] - passed[k, j] * change
+                v[i, j] += weights[k, j] * deviation[k, j]
+    return v

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
-from hysteresis_bench.diagnosis_study.case import Case, compared
+from hysteresis_bench.diagnosis_study.case import Case, by_family, compared
 from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
 from hysteresis_bench.diagnosis_study.results import CASES, FOLDER, STUDY, read_cases, write_tables
 from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
@@ -76,6 +76,16 @@ def test_the_confusion_matrix_counts_cases():
     assert table.at[NOTHING, NOTHING] == table.at[NOTHING, "drift"] == 1
     assert table.to_numpy().sum() == 5
     assert [case.right for case in cases] == [True, False, False, True, False, False]
+
+
+def test_a_family_counts_for_one_hidden_effect_of_it():
+    time, curve = "change with time, path or temperature", "curve of the input"
+    assert by_family(["drift"], [time]) == ["drift"]
+    assert by_family(["drift", "fatigue"], [time, curve]) == ["drift"]
+    assert by_family(["saturation"], [curve]) == []
+    case = Case("a", "m", 0, "done", hidden="drift", missed="drift", extra="zero-with-time", family="drift")
+    assert (case.right, case.right_by_family) == (False, True)
+    assert not replace(case, extra="zero-with-time bias").right_by_family
 
 
 def test_kept_cases_are_told_from_their_table_and_damaged_ones_by_name(tmp_path):

@@ -10,6 +10,7 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.families.finding import family_findings
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
 from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
 from hysteresis_bench.diagnosis.findings.description import accepted
@@ -57,6 +58,7 @@ def conclude(
         adopted = (*adopted, registry.DESCRIPTION)
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
         left = remainder(after, evidence)
+    model = _model(after, prepared, question)
     outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, cause)
     waterfall = tuple((f"{name} (stand-in)" if name in outcome.stand_ins else name, rmse) for name, rmse in waterfall)
     return Diagnosis(
@@ -83,7 +85,8 @@ def conclude(
         memory=evidence.memory,
         equation=left.equation,
         doubtful=outcome.doubted,
-        model=_model(after, prepared, question),
+        model=model,
+        families=family_findings(model),
         responses=_responses(prepared.dataset, stages.before, after),
         split={
             "fitted": [record.name for record in prepared.dataset.fitted],

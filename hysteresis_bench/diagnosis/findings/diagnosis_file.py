@@ -20,6 +20,7 @@ import pandas as pd
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
+from hysteresis_bench.diagnosis.families.finding import FamilyFinding
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
@@ -99,6 +100,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "described": [],
         "offset_of_both": offset if offset and list(content["effects"]) != [offset] else None,
         "equation": left,
+        "families": [],
         "experiment": None,
         "unseen": None,
         "laws": None,
@@ -151,6 +153,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         },
         "unexplained": None if diagnosis.equation is None else str(diagnosis.equation),
         "equation": _equation(diagnosis.equation),
+        "families": [_family(one) for one in diagnosis.families],
         "given_up": None if diagnosis.given_up is None else asdict(diagnosis.given_up),
         "unseen": diagnosis.unseen,
         "laws": None if diagnosis.laws is None else diagnosis.laws.as_dict(),
@@ -176,6 +179,12 @@ def _equation(equation: Equation | None) -> dict[str, Any] | None:
         for part in equation.terms
     ]
     return {"text": str(equation), "share": equation.share, "terms": terms}
+
+
+def _family(found: FamilyFinding) -> dict[str, Any]:
+    """What none of its formulas fits, with its curve."""
+    curve = {**asdict(found.curve), "x": found.curve.x.tolist(), "y": found.curve.y.tolist()}
+    return {"effect": found.effect, "family": found.family, "words": found.sentence, "curve": curve}
 
 
 def _experiment(advice: Advice | None) -> dict[str, Any] | None:

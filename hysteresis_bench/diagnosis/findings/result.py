@@ -11,6 +11,7 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
+from hysteresis_bench.diagnosis.families.finding import FamilyFinding
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage
@@ -37,6 +38,7 @@ class Diagnosis:
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
     doubtful : so much is left that the names may stand in for something else
+    families : what none of its formulas fits, each with its curve
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
     model : ready to predict and to be written
     """
@@ -67,6 +69,7 @@ class Diagnosis:
     stand_ins: tuple[str, ...] = ()
     better_law: Cause | None = None
     doubtful: bool = False
+    families: tuple[FamilyFinding, ...] = ()
     laws: Comparison | None = None
 
     def _repr_html_(self) -> str:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
+from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
@@ -108,6 +109,8 @@ def _of_the_law(outcome: Outcome, cause: Cause) -> str:
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
     rivals = [tie.rival for tie in ties if tie.effect == name]
+    if family := forms_of((name,)).get(name):
+        return f"{name} (of the family {family}; no formula here fits)"
     return f"{name} (or {', '.join(rivals)}: these records cannot tell)" if rivals else name
 
 

@@ -23,6 +23,7 @@ from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import cut, left_out_errors, unseen_errors
+from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Parameter
 
 BUDGET = 1500
@@ -79,7 +80,8 @@ class Fitter:
         names = hypothesis.names | {name}
         problem = self.stack.problem(names)
         new = [p for p in problem.space.parameters if p.name not in hypothesis.values]
-        spread = [*grid(new), *self._proposed(hypothesis, name)]
+        linear = isinstance(self.stack.effect(name), FreeForm)  # or nearly so: one start will do
+        spread = [*grid(new)[: 1 if linear else None], *self._proposed(hypothesis, name)]
         points = np.column_stack([point_of(problem, {**hypothesis.values, **values}) for values in spread])
         if new:
             points = points[:, self._promising(hypothesis, problem, points, hypothesis.values)]

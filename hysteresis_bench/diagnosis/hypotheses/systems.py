@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
 from typing import get_args
@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Acts, Effect, Family, Model
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 
@@ -51,7 +52,17 @@ class Stack:
         """The model with these effects in their places."""
         around = [(name, self.effect(name)) for name in {*names, *self.own}]
         around.sort(key=lambda one: place(one[0], type(one[1])))
-        return System(self.model, tuple(around), self.fixed or {})
+        return System(self.model, tuple(around), {**(self.fixed or {}), **self._ranges(around)})
+
+    def _ranges(self, around: Sequence[tuple[str, Effect]]) -> dict[str, float]:
+        """What the records tell the free forms of their range, in the middle of its box."""
+        return {
+            f"{name}.{p.name}": 0.5 * (p.lower + p.upper)
+            for name, effect in around
+            if isinstance(effect, FreeForm)
+            for p in effect.box(self.records)
+            if p.name in effect.ranges
+        }
 
     def problem(self, names: Collection[str]) -> Problem:
         """Their least-squares problem; boxes follow from the fitted records."""
@@ -83,7 +94,7 @@ class Stack:
                 impossible[name] = "it acts inside the state equation, and this model does not offer it"
             elif name not in self.model.offers and (fault := registry.load("effects", name).fault):
                 impossible[name] = f"broken: {fault}"
-            elif self.effect(name).nuisance:
+            elif self.effect(name).nuisance or isinstance(self.effect(name), FreeForm):
                 continue
             elif reason := self.effect(name).inapplicable(self.records):
                 impossible[name] = reason
@@ -92,6 +103,12 @@ class Stack:
             else:
                 possible.append(name)
         return tuple(possible), impossible
+
+    def free_forms(self) -> tuple[str, ...]:
+        """Names of the free forms that can be tried."""
+        known = [name for name in sorted(registry.names("effects")) if not registry.load("effects", name).fault]
+        known = [name for name in known if isinstance(self.effect(name), FreeForm) and name not in self.own]
+        return tuple(name for name in known if not self.effect(name).inapplicable(self.records))
 
     def _broken_promises(self, name: str) -> str:
         """Of an effect of another distribution; our own are tested."""

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
+from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
@@ -76,6 +77,8 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
             evidence = quieter
             selection.floor = evidence.floor
             best = selection.run(best)
+        on_step(Step("free forms in the place of names"))
+        best = with_free_forms(selection, best)
         on_step(Step("what the data say of the selection"))
         answers = follows(full, best)
         best = best if answers else base

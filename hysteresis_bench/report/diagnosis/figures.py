@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -119,3 +119,25 @@ def _stages(rows: pd.DataFrame) -> list[tuple[str, str, str]]:
     if rows["before"].equals(rows["after"]):
         return [("after", "simulated", AFTER)]
     return [("before", "before", BEFORE), ("after", "after", AFTER)]
+
+
+def family_curve(folder: Path, found: Mapping[str, Any]) -> Picture:
+    """The curve of a free form; found : one of the families in diagnosis.json"""
+    curve = found["curve"]
+    labels = [
+        what[:1].upper() + what[1:] + ("" if unit in ("1", "") else f" ({unit})")
+        for what, unit in ((curve["along"], curve["x_unit"]), (curve["of"], curve["y_unit"]))
+    ]
+
+    def draw(figure: Any) -> None:
+        axes = figure.add_subplot()
+        axes.plot(curve["x"], curve["y"], color=AFTER, linewidth=1.6)
+        if curve["logarithmic"]:
+            axes.set_xscale("log")
+        axes.set_xlabel(labels[0])
+        axes.set_ylabel(labels[1])
+
+    caption = f"{found['effect']}, of the family {found['family']}: what the model has in the place of a formula."
+    ends = ", ".join(f"{number(curve['y'][k], 3)} at {number(curve['x'][k], 3)}" for k in (0, len(curve["x"]) // 2, -1))
+    alt = f"{labels[1]} over {curve['along']}: {ends}."
+    return picture(folder, f"family-{found['effect']}", (4.6, 3.0), alt=alt, caption=caption, draw=draw)

@@ -16,6 +16,7 @@ from hysteresis_bench.report.diagnosis.before_after import (
     step_by_step,
     ties_in_words,
 )
+from hysteresis_bench.report.diagnosis.figures import family_curve
 from hysteresis_bench.report.diagnosis.tables import added_table, candidates_table, tests_tables
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
@@ -60,6 +61,7 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
         table = laws_table(laws["laws"], found["model"], laws["floor"], units)
         yield Section("laws", "Which law", [laws["words"], Figures([drawn]), table])
+    yield _families(folder, found["families"])
     yield _records(folder, kept)
     yield _considered(kept)
     yield Section("advice", "What to measure next", [found["advice"]]) if found["advice"] else None
@@ -69,6 +71,15 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         left.append(Details("The same for every record", [single]))
     yield Section("left", "What is left", left)
     yield Section("notes", "How it was made", [Terms(_facts(kept))])
+
+
+def _families(folder: Path, families: Sequence[Mapping[str, Any]]) -> Section | None:
+    """What none of its formulas fits: a sentence and a curve each."""
+    if not families:
+        return None
+    drawn = [family_curve(folder, found) for found in families]
+    words = [sentence(found["words"]) for found in families]
+    return Section("families", "What no formula here fits", [Bullets(words), Figures(drawn)])
 
 
 def _title(found: Mapping[str, Any]) -> str:

@@ -75,19 +75,19 @@ class Fatigue(Effect):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Up to a fall by a factor e³ in the record with the longest path."""
-        longest = max(float(_path(record.signal.input)[-1, 0]) for record in records)
+        longest = max(float(travelled(record.signal.input)[-1, 0]) for record in records)
         return (self.parameters[0].within(0.0, 3.0 / (longest or 1.0)),)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         if reason := motionless(records):
             return reason
-        longest = max(float(_path(record.signal.input)[-1, 0]) for record in records)
+        longest = max(float(travelled(record.signal.input)[-1, 0]) for record in records)
         if longest < SHORTEST * input_span(records):
             return "the input passes through its range less than four times"
         return ""
 
 
-def _path(values: Array) -> Array:
+def travelled(values: Array) -> Array:
     """Length of the path since the first sample, same shape."""
-    travelled: Array = np.cumsum(np.abs(np.diff(values, axis=0, prepend=values[:1])), axis=0)
-    return travelled
+    path: Array = np.cumsum(np.abs(np.diff(values, axis=0, prepend=values[:1])), axis=0)
+    return path

@@ -23,22 +23,25 @@ def _integral(time: Array, u: Array) -> Array:
     return total
 
 
+def _strength(hiding: Hiding) -> float:
+    """Output a unit of time at the largest input: the same in every record, as the resistor is."""
+    return 20.0 * hiding.strength * hiding.top / hiding.duration
+
+
 def _summed(inner: Response, u: Array, hiding: Hiding) -> Array:
     """Charge counted up sample by sample."""
-    charge = np.cumsum(u) * hiding.step
-    return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
+    return inner(u) + _strength(hiding) * np.cumsum(u / hiding.amplitude) * hiding.step
 
 
 def _sinh(inner: Response, u: Array, hiding: Hiding) -> Array:
     """Hopping conduction: the current rises with the hyperbolic sine of the input."""
-    charge = np.cumsum(np.sinh(2.0 * u / hiding.amplitude)) * hiding.step
-    return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
+    return inner(u) + _strength(hiding) * np.cumsum(np.sinh(2.0 * u / hiding.amplitude)) * hiding.step
 
 
 def _cubic(inner: Response, u: Array, hiding: Hiding) -> Array:
     """Space-charge limited: mostly with the cube of the input."""
-    charge = np.cumsum(u * (0.3 + (u / hiding.amplitude) ** 2)) * hiding.step
-    return inner(u) + hiding.strength * hiding.top * charge / float(np.ptp(charge))
+    drive = u / hiding.amplitude
+    return inner(u) + _strength(hiding) * np.cumsum(drive * (0.3 + drive**2)) * hiding.step
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,57 @@
+"""A name is the claim that its formula does as well as a free form: where one beside it does clearly better on samples
+left out, and explains most of what the formulas leave over the noise, the free form joins, and every name that is not
+needed any more leaves.
+
+So a free form takes the place of a formula of its family, of one of another family that stood in for it, or of none.
+"""
+
+from __future__ import annotations
+
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, MOST, NAMED, Selection
+
+
+def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
+    """The system with free forms where names do not do as well; `selection` counts those as candidates from now on."""
+    names = selection.candidates
+    forms = selection.fitter.stack.free_forms()
+    selection.candidates = (*names, *forms)
+    current = named
+    for _ in range(MOST):
+        better = _freed(selection, current, [form for form in forms if form not in current.names])
+        if better is None:
+            break
+        current = better
+    selection.candidates = (*names, *(form for form in forms if form in current.names))
+    return current
+
+
+def _freed(selection: Selection, current: Hypothesis, forms: list[str]) -> Hypothesis | None:
+    """With one free form more, the one that does best; None where the names do as well as all of them."""
+    if current.rmse <= MATTERS * selection.floor:
+        return None
+    found = [system for system in selection.with_each(current, forms) if _clearly(selection, current, system)]
+    if not found:
+        return None
+    better = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
+    # beside all that is named a free form is one claim more: a little misfit is too little for it
+    more = len(selection.adopted(better)) > len(selection.adopted(current))
+    return None if more and current.rmse <= MISFIT * selection.floor else better
+
+
+def _clearly(selection: Selection, current: Hypothesis, system: Hypothesis) -> bool:
+    """Does a system do clearly better, and explain more than what then remains?"""
+    gain = advantage(system.left_out, current.left_out, selection.fitter.blocks)
+    enough = gain > CLEAR and selection.share(current, system) > NAMED
+    return enough and selection.needed(current, system, len(selection.candidates))
+
+
+def _thinned(selection: Selection, current: Hypothesis) -> Hypothesis:
+    """Without what is not needed any more, the least telling first."""
+    while True:
+        smaller = [selection.without(current, name) for name in selection.adopted(current)]
+        spare = [system for system in smaller if not selection.needed(system, current)]
+        if not spare:
+            return current
+        current = min(spare, key=lambda system: system.cv_rmse)

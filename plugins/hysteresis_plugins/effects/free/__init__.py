@@ -1,0 +1,1 @@
+"""Free forms: for every family a curve without a formula, linear in its coefficients."""

@@ -1,0 +1,82 @@
+"""What the free forms share that are natural cubic splines [1].
+
+[1] C. de Boor, A Practical Guide to Splines, Springer (1978), ch. IV.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.parameters import Parameter
+
+NARROW = 0.01
+"""By which share of itself, or of the data's range, a box is wide of what that range tells."""
+
+POINTS = 61
+"""Of a drawn curve."""
+
+
+@dataclass(frozen=True)
+class Spline:
+    """A curve over a range, linear in its ordinates, which are parameters.
+
+    prefix : of their names;  knots : from 0 to 1, rising;  node : a knot at which the curve is 0
+    held : level beyond the range, straight otherwise
+    tied : the last ordinate is the first, so that a straight line is none of these curves
+    """
+
+    prefix: str
+    knots: tuple[float, ...]
+    node: int | None
+    held: bool = False
+    tied: bool = False
+
+    def parameters(self, unit: str, meaning: str) -> tuple[Parameter, ...]:
+        return tuple(
+            Parameter(f"{self.prefix}{k}", -1.0, 1.0, unit, null=0.0, meaning=f"{meaning} at {knot:.3g} of the range")
+            for k, knot in enumerate(self.knots[: len(self.knots) - self.tied])
+            if k != self.node
+        )
+
+    def at(self, x: Array, low: Any, high: Any, p: Any) -> Array:
+        """(samples, swarm);  x : (samples, 1) or (samples, swarm);  low, high : (swarm,), the ends of the range"""
+        from hysteresis_bench.kernels.effects.natural_spline import natural_spline
+
+        given = np.zeros((len(self.knots), high.size))
+        for k in range(len(self.knots) - self.tied):
+            if k != self.node:
+                given[k] = getattr(p, f"{self.prefix}{k}")
+        if self.tied:
+            given[-1] = given[0]
+        return natural_spline(x, low, high, knots=self.knots, ordinates=given, held=self.held)
+
+    def drawn(self, x: Array, low: float, high: float, p: Any) -> Array:
+        """(points,), of one set of parameters; x : (points,)"""
+        column = type(p)(*(np.array([value]) for value in p))
+        return self.at(x[:, None], np.array([low]), np.array([high]), column)[:, 0]
+
+
+def early(prefix: str) -> Spline:
+    """A change from the first sample on: 0 there, the knots denser where it begins, as that is where it is quick."""
+    return Spline(prefix, tuple((k / 6.0) ** 2 for k in range(7)), 0, held=True)
+
+
+def bent(prefix: str) -> Spline:
+    """A curve of a signal: without a shift and a gain, which belong to what is wrapped."""
+    return Spline(prefix, tuple(k / 8.0 for k in range(9)), 4, tied=True)
+
+
+def narrow(parameter: Parameter, value: float, scale: float | None = None) -> Parameter:
+    """In a narrow box around what the data tell; scale : of the width, the value itself where there is none"""
+    width = NARROW * (scale or abs(value) or 1.0)
+    return parameter.within(value - width, value + width)
+
+
+def extremes(columns: Sequence[Array]) -> tuple[float, float]:
+    """Least and largest value."""
+    return min(float(np.min(one)) for one in columns), max(float(np.max(one)) for one in columns)

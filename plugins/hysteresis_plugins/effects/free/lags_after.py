@@ -1,0 +1,45 @@
+"""Lags after: what is measured follows the response with any spectrum of lags."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.free_forms import Curve, FreeForm
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import unresolved
+from hysteresis_plugins.effects.free._lags import PARAMETERS, RANGES, box, late, step_response
+
+
+@dataclass(frozen=True)
+class LagsAfter(FreeForm):
+    """What is measured is the response through lags of any weights, on a logarithmic grid of time constants.
+
+    y = x + sum of w_k (lag_k[x] - x), x the response: a spectrum of relaxations [1], its weights of either sign, so
+    that lags in series are covered as well. Exact for a response that is linear between its samples.
+
+    [1] N. W. Tschoegl, The Phenomenological Theory of Linear Viscoelastic Behavior, Springer (1989).
+    """
+
+    acts = "output"
+    family = "linear dynamics after the law"
+    affine = True
+    ranges = RANGES
+    parameters = PARAMETERS
+
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        output = inner(signal)
+        return late(signal.time, output, p) if signal.timed else output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Time constants from half a sampling step to the duration of the longest record."""
+        return box(records)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return unresolved(records)
+
+    def curve(self, p: Any) -> Curve:
+        return step_response(p, "the output")

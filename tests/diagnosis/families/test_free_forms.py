@@ -1,0 +1,81 @@
+"""Where no formula of an effect fits, its family is told, with the curve in the model; where one fits, its name."""
+
+import json
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.families.finding import course
+from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis, write_diagnosis
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
+from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
+from hysteresis_bench.fit.model_file import read_model
+from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
+from hysteresis_bench.signals import joined
+from hysteresis_plugins.effects import drift
+
+FITTED = ("slow", "fast", "nested", "sweep")
+X = np.linspace(0.0, 1.0, 50)
+
+
+@pytest.fixture(scope="module")
+def diffusive():
+    """Records whose zero runs away with the square root of time, an unseen one, and what is diagnosed of the first."""
+    rig = HiddenEffects(effects=("drift",), draw=2, other=True)
+    assert rig._form("drift") is drift._diffusive
+    rng = np.random.default_rng(4)
+    seen = joined(*(rig.measure(name, rng) for name in (*FITTED, "mixed"))).split(["mixed"])
+    return seen, rig.measure("stairs", rng), diagnose(seen, Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
+
+
+def test_the_family_is_named_where_no_formula_fits(diffusive):
+    _, _, found = diffusive
+    assert found.effects == ("zero-with-time",)
+    assert found.verdict == "effect-found"
+    (family,) = found.families
+    assert family.family == "change with time, path or temperature"
+    assert family.family in found.headline
+    assert (family.curve.x_unit, family.curve.along) == ("s", "time")
+    curve = family.curve.y / family.curve.y[-1]
+    assert np.max(np.abs(curve - np.sqrt(family.curve.x / family.curve.x[-1]))) < 0.1
+
+
+def test_predict_uses_the_curve(diffusive, tmp_path):
+    seen, unseen, found = diffusive
+    write_diagnosis(tmp_path / "out", found)
+    predicted = read_model(tmp_path / "out" / "model.json").predict(unseen)
+    error = predicted.records[0].output - unseen.records[0].output
+    assert np.sqrt(np.mean(error**2)) < 1.15 * seen.hidden["noise"]
+
+
+def test_the_files_and_the_page_tell_the_family(diffusive, tmp_path):
+    _, _, found = diffusive
+    write_diagnosis(tmp_path, found)
+    (kept,) = read_diagnosis(tmp_path).diagnosis["families"]
+    assert kept["effect"] == "zero-with-time"
+    assert len(kept["curve"]["x"]) == len(kept["curve"]["y"]) > 10
+    page = write_diagnosis_page(tmp_path).read_text(encoding="utf-8")
+    assert "What no formula here fits" in page
+    assert "the zero of the output" in page
+    old = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
+    del old["families"]
+    (tmp_path / "diagnosis.json").write_text(json.dumps(old), encoding="utf-8")
+    assert read_diagnosis(tmp_path).diagnosis["families"] == []
+
+
+@pytest.mark.parametrize(
+    ("y", "words"),
+    [
+        (X, "rises"),
+        (-X, "falls"),
+        (1.0 - np.exp(-6.0 * X), "rises and levels off"),
+        (X**4, "rises, faster at the end"),
+        (X * (1.0 - X), "rises, then falls"),
+        (-X * (1.0 - X), "falls, then rises"),
+        (np.sin(20.0 * X), "goes up and down"),
+        (0.0 * X, "does not change"),
+    ],
+)
+def test_a_course_is_told_in_words(y, words):
+    assert course(X, y) == words
