@@ -38,7 +38,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """
     dataset = without_spikes(dataset)
     if question.model:
-        return _diagnosed(dataset, question, registry.names("models"))
+        return _diagnosed(dataset, question, _of_few_parameters(registry.names("models")))
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
     fitted, _ = with_held_out(dataset.map(question.preparation.skipped))
@@ -86,10 +86,12 @@ def _promising(laws: Comparison, several: bool) -> list[str]:
     if not fitted:
         raise UserError("diagnose", f"no law can be fitted to these records. {laws.words}")
     ranked = sorted(fitted, key=lambda law: law != laws.chosen)
-    few = [
-        law for law in ranked if not registry.build("models", law, {}).smooth
-    ]  # effects would be lost among the rest
-    return (few or ranked)[: PURSUED if several else 1]
+    return (_of_few_parameters(ranked) or ranked)[: PURSUED if several else 1]
+
+
+def _of_few_parameters(laws: Sequence[str]) -> list[str]:
+    """Without densities of many parameters, among which effects would be lost."""
+    return [law for law in laws if not registry.build("models", law, {}).smooth]
 
 
 def _told(best: Diagnosis, found: list[Diagnosis], laws: Comparison) -> str:

@@ -54,6 +54,7 @@ def test_an_effect_that_the_better_law_needs_too_stays_named():
     cause = law_as_cause(found, ("ferroelectric", "dahl"), OPTIONS)
     assert cause.model == "ferroelectric"
     assert cause.effects == ("creep",)
+    assert cause.unseen < 1.1 * found.selection.floor
     assert "creep" not in cause.stand_ins
 
 

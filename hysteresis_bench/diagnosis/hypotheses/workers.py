@@ -25,8 +25,7 @@ WORDS = {
     "refitted": "other starts",
     "bare": "the bare model",
     "screened": "other laws on some of the samples",
-    "alone": "other laws",
-    "with_adopted": "other laws with the same effects",
+    "fitted": "other laws",
 }
 
 
