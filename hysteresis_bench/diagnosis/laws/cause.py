@@ -137,7 +137,7 @@ def law_as_cause(found: Found, others: Sequence[str], options: DiagnosisOptions)
     few = thinned(views_of(stack.records), SCREENED)
     laws = OtherLaws(stack.records, few, stack.own, formulas, floor, options.seed)
     left = replace(fitter, stack=replace(stack, records=few)).errors(found.final.names, fitter.fitted(found.final)[1])
-    best = _best(laws, others, float(np.sqrt(np.mean(left**2))) * (MATTERS if curves else 1.0 / MATTERS), options)
+    best = _best(laws, others, float(np.sqrt(np.mean(left**2))) * (MATTERS if curves else 1.0), options)
     explains = own > MATTERS * best.rmse and own**2 - best.rmse**2 > NAMED * (own**2 - floor**2)
     clearly = explains and advantage(best.unseen, unseen, fitter.blocks) > CLEAR
     if not clearly and not (curves and best.rmse <= MATTERS * max(own, floor)):
