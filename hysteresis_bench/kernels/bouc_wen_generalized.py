@@ -1,7 +1,7 @@
 """Generalized Bouc-Wen hysteresis of a swarm: `bouc_wen_generalized_step` has the law and its step for one particle.
 
 Here LANES particles make that step side by side, those that yield after a like displacement together, as they want as
-many parts of an increment: four times as fast for a swarm drawn from a box, ten times for one about a point.
+many parts of an increment: five times as fast for a swarm of fifty.
 """
 
 from __future__ import annotations

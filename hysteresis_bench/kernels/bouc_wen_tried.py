@@ -73,7 +73,7 @@ def _in_long_steps(s: Array) -> None:
 @njit(cache=True, error_model="numpy")
 def _count(s: Array) -> int:
     special = 0
-    for j in range(LANES):
+    for j in range(min(LANES, s.size)):
         special += 1 if (s[OPEN + j] > 0.0) & (s[SPECIAL + j] > 0.0) else 0
     return special
 
@@ -98,5 +98,4 @@ def tried(n: float, s: Array) -> None:
 @njit(cache=True, error_model="numpy")
 def kept(n: float, s: Array) -> None:
     """What the last trial found is the state."""
-    for j in range(LANES):
-        s[H + j] = s[FOUND + j]
+    s[H : H + LANES] = s[FOUND : FOUND + LANES]

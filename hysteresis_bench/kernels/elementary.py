@@ -34,13 +34,8 @@ def exponential(x):  # type: ignore[no-untyped-def]
 
 
 @njit(inline="always", error_model="numpy")
-def logarithm(x):  # type: ignore[no-untyped-def]
-    """ln(x) of a normal x > 0, error below 3e-16 max(1, |ln x|); about -709 for 0."""
-    bits = np.float64(x).view(np.int64)
-    part = np.int64((bits & np.int64(MANTISSA)) | np.int64(HALF_UP)).view(np.float64)  # 1/2 <= part < 1
-    small = part < ROOT_HALF
-    exponent = np.float64((bits >> np.int64(52)) - np.int64(1022)) - (1.0 if small else 0.0)
-    part = part + part if small else part
+def _logarithm_of(exponent, part):  # type: ignore[no-untyped-def]
+    """ln(2^exponent part), ROOT_HALF <= part < 2 ROOT_HALF."""
     f = (part - 1.0) / (part + 1.0)  # |f| < 0.172
     z = f * f
     z2 = z * z
@@ -49,3 +44,21 @@ def logarithm(x):  # type: ignore[no-untyped-def]
     high = (1 / 11 + z * (1 / 13)) + z2 * (1 / 15 + z * (1 / 17)) + z4 * (1 / 19 + z * (1 / 21))
     series = 2.0 * (f + f * (z * (low + z4 * high)))
     return exponent * LN2_HIGH + (series + exponent * LN2_LOW)
+
+
+@njit(inline="always", error_model="numpy")
+def logarithm(x):  # type: ignore[no-untyped-def]
+    """ln(x) of a normal x > 0, error below 3e-16 max(1, |ln x|); about -709 for 0."""
+    bits = np.float64(x).view(np.int64)
+    part = np.int64((bits & np.int64(MANTISSA)) | np.int64(HALF_UP)).view(np.float64)  # 1/2 <= part < 1
+    small = part < ROOT_HALF
+    exponent = np.float64((bits >> np.int64(52)) - np.int64(1022)) - (1.0 if small else 0.0)
+    part = part + part if small else part
+    return _logarithm_of(exponent, part)
+
+
+@njit(inline="always", error_model="numpy")
+def logarithm_to_2(x):  # type: ignore[no-untyped-def]
+    """ln(x) of 1 <= x <= 2, as `logarithm` to the last bit."""
+    small = x < 2.0 * ROOT_HALF
+    return _logarithm_of(0.0 if small else 1.0, x if small else 0.5 * x)

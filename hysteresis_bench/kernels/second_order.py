@@ -92,15 +92,16 @@ def _prepared(stage, duration):  # type: ignore[no-untyped-def]
 @njit(inline="always", error_model="numpy")
 def _advanced(stage, i, duration, u, y):  # type: ignore[no-untyped-def]
     _, _, bound, step, deviation, velocity = stage
-    columns = u.shape[1]
+    columns, rate = u.shape[1], 1.0 / duration
+    fastest = bound * rate
     for j in range(y.shape[1]):
         now = u[i, j] if columns > 1 else u[i, 0]
         before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
-        slope = (now - before) / duration
+        slope = (now - before) * rate
         e = step[0, j] * deviation[j] + step[1, j] * velocity[j] - step[4, j] * slope
         v = step[2, j] * deviation[j] + step[3, j] * velocity[j] + (1.0 - step[0, j]) * slope
         deviation[j] = min(max(e, -bound), bound)
-        velocity[j] = min(max(v, -bound / duration), bound / duration)
+        velocity[j] = min(max(v, -fastest), fastest)
         y[i, j] = now + deviation[j]
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from numba import njit
 
-from hysteresis_bench.kernels.elementary import exponential, logarithm
+from hysteresis_bench.kernels.elementary import exponential, logarithm, logarithm_to_2
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -37,3 +37,9 @@ def test_the_ends_are_kept():
     assert 1e307 < exponentials[2] < np.inf
     assert logarithms[0] < -708
     assert logarithms[3] == 0.0
+
+
+def test_the_logarithm_to_2_is_the_logarithm():
+    x = np.concatenate([1.0 + np.linspace(0.0, 1.0, 10001), 1.0 + 2.0 ** -np.arange(1.0, 53.0)])
+    general, short = njit(lambda x: logarithm(x)), njit(lambda x: logarithm_to_2(x))
+    assert [short(value) for value in x] == [general(value) for value in x]

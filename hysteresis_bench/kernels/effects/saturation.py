@@ -7,7 +7,7 @@ import math
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.elementary import exponential, logarithm
+from hysteresis_bench.kernels.elementary import exponential, logarithm, logarithm_to_2
 
 WHOLE = 8
 """Columns that go side by side; of what is left over, the samples do, or a vector would be left half empty."""
@@ -16,12 +16,10 @@ WHOLE = 8
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
 def _bent(x, inverse_level, level, sharpness, softness):  # type: ignore[no-untyped-def]
     excess = abs(inverse_level * x)
-    within = excess <= 1.0
-    # the powers of the smaller of excess and 1 / excess, so that none overflows
-    least = excess if within else 1.0 / excess
-    power = exponential(sharpness * logarithm(least))
-    folded = exponential(-logarithm(1.0 + power) * softness)
-    bent = x * folded if within else math.copysign(folded, x) * level
+    # the power of the smaller of excess and 1 / excess, so that it does not overflow
+    power = exponential(-sharpness * abs(logarithm(excess)))
+    folded = exponential(-logarithm_to_2(1.0 + power) * softness)
+    bent = x * folded if excess <= 1.0 else math.copysign(folded, x) * level
     return bent if x == x else x
 
 
