@@ -203,7 +203,7 @@ def read_model(path: Path) -> FittedModel:
     except OSError as error:
         raise UserError(str(path), f"cannot be read: {error.strerror}.") from None
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise UserError(str(path), f"is no model.json as `fit` and `diagnose` write it: {error}.") from None
+        raise UserError(str(path), f"is not valid JSON, so no model.json of `fit` or `diagnose`: {error}.") from None
     schema = content.get("schema") if isinstance(content, dict) else None
     if type(schema) is not int or schema not in READABLE:
         known = " or ".join(map(str, READABLE))

@@ -65,8 +65,8 @@ def test_data(here, case):
 
 def test_data_that_is_no_file(here):
     os.mkfifo(here / "pipe.csv")
-    for name in ("pipe.csv", "."):
-        assert "is no file" in told("predict", "model.json", name, "--out", "out.csv")
+    for name, why in (("pipe.csv", "is no file"), (".", "is a folder; name its files, such as")):
+        assert why in told("predict", "model.json", name, "--out", "out.csv")
     assert "no file that can be written" in told("predict", "model.json", "good.csv", "--out", "pipe.csv")
     assert "cannot be read" in told("predict", "pipe.csv", "good.csv", "--out", "out.csv")
 

@@ -108,4 +108,6 @@ def _list_studies(console: Console) -> None:
 def _table(title: str) -> Table:
     from rich.table import Table
 
-    return Table(title=title, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
+    table = Table(title=title, title_justify="left", box=None, pad_edge=False, title_style="bold", show_header=False)
+    table.add_column(no_wrap=True)  # a name is there to be copied
+    return table

@@ -84,7 +84,7 @@ def print_comparison(found: Comparison, console: Console) -> None:
     table = Printed(
         title=f"RMSE{'' if unit == '1' else f' [{unit}]'}, noise {found.floor:.3g}", title_justify="left", box=None
     )
-    table.add_column("law")
+    table.add_column("law", no_wrap=True)
     for heading in ("parameters", "left out", "fitted", *(["held out"] if held_out else []), "CPU s"):
         table.add_column(heading, justify="right")
     for row in found.table.dropna(subset="unseen").itertuples(index=False):
