@@ -56,7 +56,7 @@ def claims(study: str) -> str:
                 row["problem"],
                 f"**{row['verdict']}**",
                 f"{row['a12']:.2f} ({row['a12_low']:.2f} to {row['a12_high']:.2f})",
-                f"{row['probability_equivalent']:.2f}",
+                "–" if pd.isna(row["probability_equivalent"]) else f"{row['probability_equivalent']:.2f}",
                 row["over"],
             )
             for _, row in rows.iterrows()

@@ -127,12 +127,14 @@ def test_claims_on_a_stage_are_judged_over_its_rows(tmp_path, run):
     claim = {"says": "x", "where": "y", "better": "mpso", "worse": "pso", "metric": "check_rmse"}
     rows = results.trials[results.trials["problem"] == PROBLEMS[0]][["optimizer", "instance", "trial"]]
     errors = rows["optimizer"].map({"mpso": 0.8, "pso": 1.0}) * (1 + 0.1 * rows["trial"])
-    behind = rows.assign(stage="linear", made_of="h0", fault="", check_rmse=errors).dropna(subset="check_rmse")
+    behind = rows.assign(stage="linear", made_of="h0", fault="", check_rmse=errors, tracking_rmse=np.nan)
+    behind = behind.dropna(subset="check_rmse")
     stage = STUDY.stage[0].model_copy(update={"after": PROBLEMS[0]})
     study = results.study.model_copy(update={"stage": [stage]})
     here = problems(replace(results, study=study, staged=behind if run else NONE))
     judged = judge(check_published({"claim": [claim]}), here)
     assert [found.problem for found in judged] == [PROBLEMS[0]]
+    assert not any(problem.has("tracking_rmse") for problem in here)  # an empty column is none
     assert judged[0].verdict == (HOLDS if run else UNDECIDED)
     assert (NOT_STAGED in sentences(judged)[0]) != run
 

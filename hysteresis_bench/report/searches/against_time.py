@@ -37,8 +37,8 @@ def against_time(folder: Path, name: str, problem: Problem, *, looks: Mapping[st
         legend(axes, 2)
 
     caption = f"{problem.name}. Best fitness so far over the best known against time, both logarithmic: median over "
-    caption += f"{problem.counted}. A trial’s time is spread evenly over its evaluations; it holds the optimizer’s own "
-    caption += "work, and whatever else the machine did."
+    caption += f"{problem.counted}. A trial’s CPU time is spread evenly over its evaluations; it holds the optimizer’s "
+    caption += "own work."
     return picture(folder, name, (4.6, 3.4), alt=f"Fitness against time. {caption}", caption=caption, draw=draw)
 
 

@@ -43,8 +43,8 @@ def _with_stages(results: Results, problem: str) -> pd.DataFrame:
     if staged.empty or not following:
         return rows
     key = ["optimizer", "instance", "trial"]
-    behind = staged[staged["stage"].isin(following)].drop_duplicates(key)
-    return rows.merge(behind.drop(columns=["stage", "made_of", "fault"]), how="left", on=key)
+    behind = staged[staged["stage"].isin(following)].drop_duplicates(key).dropna(axis="columns", how="all")
+    return rows.merge(behind.drop(columns=["stage", "made_of", "fault"], errors="ignore"), how="left", on=key)
 
 
 def _reference(study: Study, labels: list[str]) -> str:
