@@ -20,8 +20,8 @@ from hysteresis_bench.diagnosis.evidence.blocks import Blocks
 from hysteresis_bench.diagnosis.laws.left_out import SMOOTHER, LeftOut
 from hysteresis_bench.fit.objective import Problem
 
-SCREENED, STEPS = 12, 40
-"""Points of the parameters that are not linear, and steps downhill from the best of them."""
+SCREENED, STEPS = 4, 15
+"""Points of the parameters that are not linear, and steps downhill from the best of them, for each dimension."""
 LIGHTEST, HEAVIEST = -7.0, 1.0
 """Powers of ten between which the weight lies, as a share of what makes both terms alike."""
 WEIGHTS = 25
@@ -58,9 +58,9 @@ class Smoothing:
         def left(point: Array) -> float:
             return _rms(self._predicted(np.clip(point, 0.0, 1.0), out.blocks))
 
-        points = Halton(dimension, scramble=False).random(SCREENED + 1)[1:]
+        points = Halton(dimension, scramble=False).random(SCREENED * dimension + 1)[1:]
         first = points[int(np.argmin([left(point) for point in points]))]
-        options = {"maxfev": STEPS, "xatol": 1e-3, "fatol": 1e-4 * left(first)}
+        options = {"maxfev": STEPS * dimension, "xatol": 1e-3, "fatol": 1e-4 * left(first)}
         found = minimize(left, first, method="Nelder-Mead", bounds=[(0.0, 1.0)] * dimension, options=options)
         point = np.clip(found.x, 0.0, 1.0)
         errors = best = self._predicted(point, out.blocks)
