@@ -11,6 +11,7 @@ from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
+from hysteresis_bench.diagnosis.laws.smoothing import Rough
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import search
@@ -62,9 +63,8 @@ def _promising(laws: Comparison, several: bool) -> list[str]:
     if not fitted:
         raise UserError("diagnose", f"no law can be fitted to these records. {laws.words}")
     ranked = sorted(fitted, key=lambda law: law != laws.chosen)
-    few = [
-        law for law in ranked if not registry.build("models", law, {}).smooth
-    ]  # effects would be lost among the rest
+    # an effect would be lost among the parameters of a smooth density
+    few = [law for law in ranked if not isinstance(registry.build("models", law, {}), Rough)]
     return (few or ranked)[: PURSUED if several else 1]
 
 

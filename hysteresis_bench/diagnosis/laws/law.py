@@ -16,7 +16,7 @@ from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.left_out import left_out
-from hysteresis_bench.diagnosis.laws.smoothing import Smoothing
+from hysteresis_bench.diagnosis.laws.smoothing import Rough, Smoothing
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
@@ -80,7 +80,7 @@ class Laws:
         if reasons := self._reasons(fitter):
             return Law(name, " ".join(reasons))
         problem = fitter.stack.problem({registry.RECORD_OFFSET})
-        if problem.system.model.smooth:
+        if isinstance(problem.system.model, Rough):
             return self._smoothed(name, problem, begun)
         found = self._found(name)
         count = problem.space.dimension
@@ -123,7 +123,7 @@ class Laws:
         reasons = [f"{name}: {why}" for name, effect in system.effects if (why := effect.inapplicable(self.records))]
         samples = sum(record.measured.size for record in self.records)
         count = len(system.parameters)
-        if samples <= 2 * count and not system.model.smooth:
+        if samples <= 2 * count and not isinstance(system.model, Rough):
             reasons.append(f"{samples} samples are too few for its {count} parameters.")
         return reasons or broken_promises(system, self.records)
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -28,6 +29,18 @@ WEIGHTS = 25
 """Of them, tried from the heaviest one down."""
 RIDGE = 1e-10
 """Share of the diagonal that keeps every system definite."""
+
+
+@runtime_checkable
+class Rough(Protocol):
+    """A model whose linear parameters are so many that they want to be smooth."""
+
+    @property
+    def linear(self) -> tuple[str, ...]: ...
+
+    def roughness(self, p: Any) -> Array:
+        """(rows, len(linear)): what a smooth law has little of; p as in `Model.simulate`, a swarm of 1, of which only
+        the parameters that are not linear matter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -118,7 +131,8 @@ class Smoothing:
 
     def _penalty(self, point: Array, columns: Array) -> Array:
         """Weighted square of the roughness, (linear, linear)."""
-        model, names = self.problem.system.model, self.problem.space.names
+        model: Any = self.problem.system.model
+        names = self.problem.space.names
         rough: Array = model.roughness(SimpleNamespace(**dict(zip(names, self._values(point), strict=True))))
         square = np.zeros((len(self._rows), len(self._rows)))
         own = [self._rows.index(names.index(name)) for name in model.linear]
