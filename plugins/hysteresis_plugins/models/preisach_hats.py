@@ -115,9 +115,9 @@ class PreisachHats(Model):
         return found
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Of the scored input: the radius from a fiftieth of half its span to all of it, the centre in the middle tenth;
-        weights up to twice the range of the output, on the side of the loops' sense, on both where the data do not
-        say."""
+        """Of the scored input: the radius from a fiftieth of half its span to all of it, the centre in its middle
+        tenth; weights up to twice the range of the output, on the side of the loops' sense, on both where the data do
+        not say."""
         radius, centre, grading, slope, *weights = self.parameters
         low = min(float(np.min(record.input[record.scored])) for record in records)
         high = max(float(np.max(record.input[record.scored])) for record in records)
