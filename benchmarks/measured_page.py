@@ -61,7 +61,7 @@ def _table(rows: pd.DataFrame) -> Table:
         lines.append(
             [
                 Cell(f"{row.device}{unit}", "prose"),
-                Cell(number(row.ratio, 2) if ran else NONE, "good" if good else "bad" if ran else "", strong=True),
+                Cell(number(row.ratio, 3) if ran else NONE, "good" if good else "bad" if ran else "", strong=True),
                 Cell(f"{row.law}{effects}" if ran else "not run", "prose"),
                 number(row.held_out, 3) if ran else NONE,
                 NONE if asked is None else number(asked, 3),
