@@ -23,7 +23,7 @@ from hysteresis_bench.fit.objective import Problem
 
 SCREENED, STEPS = 4, 15
 """Points of the parameters that are not linear, and steps downhill from the best of them, for each dimension."""
-LIGHTEST, HEAVIEST = -7.0, 1.0
+LIGHTEST, HEAVIEST = -6.0, 3.0
 """Powers of ten between which the weight lies, as a share of what makes both terms alike."""
 WEIGHTS = 25
 """Of them, tried from the heaviest one down."""
@@ -135,9 +135,10 @@ class Smoothing:
         names = self.problem.space.names
         rough: Array = model.roughness(SimpleNamespace(**dict(zip(names, self._values(point), strict=True))))
         square = np.zeros((len(self._rows), len(self._rows)))
-        own = [self._rows.index(names.index(name)) for name in model.linear]
+        own = np.array([self._rows.index(names.index(name)) for name in model.linear])
         square[np.ix_(own, own)] = rough.T @ rough
-        alike = np.sum(columns[:, own] ** 2) / max(np.trace(square), np.finfo(float).tiny)
+        # of those that can be rough alone: the others have other units
+        alike = np.sum(columns[:, np.diag(square) > 0.0] ** 2) / max(np.trace(square), np.finfo(float).tiny)
         return np.asarray(10.0 ** self._power(point) * alike * square)
 
     def _least(self, normal: Array, descent: Array, penalty: Array) -> Array:
