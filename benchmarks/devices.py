@@ -24,8 +24,10 @@ PLAIN, SETTLED = DiagnosisOptions(), DiagnosisOptions(settle=True)
 
 
 MAGNETIC = ("preisach-hats", "preisach", "energy-based", "jiles-atherton-clamped", "jiles-atherton-pinning")
+REVERSAL = ("preisach-hats", "preisach", "energy-based")
 SWITCHING = ("preisach-hats", "preisach", "ferroelectric", "prandtl-ishlinskii", "prandtl-ishlinskii-modified")
-FRICTION = ("maxwell-slip", "dahl", "lugre", "bouc-wen", "bouc-wen-generalized", "preisach-hats", "preisach")
+FRICTION = ("maxwell-slip", "dahl", "lugre", "bouc-wen", "preisach")
+STRUCTURE = (*FRICTION, "bouc-wen-generalized", "preisach-hats")
 GENERAL = (*SWITCHING, "energy-based", "bouc-wen", "bouc-wen-generalized", "dahl", "maxwell-slip")
 """Laws that are compared on a kind of device: those of its own field, and the general ones."""
 
@@ -156,7 +158,7 @@ DEVICES = (
         _in("forc-feco-nanowires", "forc"),
         ("sample", "A/m", "A m^2"),
         third=True,
-        laws=MAGNETIC,
+        laws=REVERSAL,
         prepared=_from_saturation(1.194e6),
         asked=0.003,
         share=True,
@@ -166,7 +168,7 @@ DEVICES = (
         _in("forc-rock-agm", "forc"),
         ("sample", "A/m", "A m^2"),
         third=True,
-        laws=MAGNETIC,
+        laws=REVERSAL,
         prepared=_from_saturation(2.39e5),
     ),
     Device(
@@ -213,7 +215,7 @@ DEVICES = (
         _in("steel-coupon-rlmtp", "s355_c12_growing_cycles"),
         ("s", "1", "Pa"),
         stride=3,
-        laws=FRICTION,
+        laws=STRUCTURE,
         prepared=_first(7789),
         asked=1.33e7,
     ),
@@ -221,7 +223,7 @@ DEVICES = (
         "steel coupon S355J2",
         _in("steel-coupon-resslab", "example_1"),
         ("sample", "1", "Pa"),
-        laws=FRICTION,
+        laws=STRUCTURE,
         asked=1.5e7,
     ),
     Device(
@@ -239,7 +241,7 @@ DEVICES = (
         "pneumatic cylinder, O-ring, 1 bar",
         _in("pneumatic-friction-tud", "oring_1bar"),
         ("s", "m", "N"),
-        stride=3,
+        stride=4,
         laws=FRICTION,
         asked=0.015,
         share=True,
@@ -250,7 +252,7 @@ DEVICES = (
         _in("clt-wall-actuator", "trial2"),
         ("sample", "m", "N"),
         stride=3,
-        laws=FRICTION,
+        laws=STRUCTURE,
         prepared=_first(7100),
         asked=0.0078,
         share=True,
@@ -260,7 +262,7 @@ DEVICES = (
         "rocking wall",
         _in("rocking-wall-ts1", "ts1_cyclic"),
         ("sample", "m", "N"),
-        laws=FRICTION,
+        laws=STRUCTURE,
         asked=0.009,
         share=True,
         repeats="0.1 to 0.3 % of range",

@@ -57,37 +57,34 @@ def _table(rows: pd.DataFrame) -> Table:
         asked = None if pd.isna(row.asked) else float(row.asked)
         met = "" if asked is None or not ran else ("reached" if row.held_out <= asked else "not reached")
         good = ran and row.ratio < GOAL
+        unit = "" if row.unit == "1" else f", {row.unit}"
         lines.append(
             [
-                Cell(row.device, "prose"),
+                Cell(f"{row.device}{unit}", "prose"),
+                Cell(number(row.ratio, 3) if ran else NONE, "good" if good else "bad" if ran else "", strong=True),
                 Cell(f"{row.law}{effects}" if ran else "not run", "prose"),
-                Cell(number(row.ratio, 2) if ran else NONE, "good" if good else "bad" if ran else "", strong=True),
                 number(row.held_out, 3) if ran else NONE,
-                number(row.polynomial, 3) if ran else NONE,
-                percent(row.held_out / row.range) if ran else NONE,
-                number(row.floor, 2) if ran else NONE,
-                Cell(row.repeats or NONE),
                 NONE if asked is None else number(asked, 3),
                 Cell(met or NONE, "good" if met == "reached" else ""),
-                "" if row.unit == "1" else row.unit,
+                percent(row.held_out / row.range) if ran else NONE,
+                number(row.polynomial, 3) if ran else NONE,
+                number(row.floor, 2) if ran else NONE,
+                Cell(row.repeats or NONE),
             ]
         )
     header = [
         "Device",
-        "Law",
         "Of the polynomial",
+        "Law",
         "Held out",
-        "Polynomial",
-        "Of the range",
-        "Noise",
-        "Cycles repeat to",
         "Asked",
         "",
-        "Unit",
+        "Of the range",
+        "Polynomial",
+        "Noise",
+        "Cycles repeat to",
     ]
-    note = (
-        "RMSE on records that no law was fitted to, or on the last third of the only record. The noise is the fast one."
-    )
+    note = "RMSE on records that no law was fitted to, or on the last third of the only one. The noise is the fast one."
     return Table("Held-out errors", header, lines, note=note)
 
 

@@ -84,8 +84,6 @@ class Model(ABC):
     """Of its loops, output over input: 1 where they can run anticlockwise, -1 clockwise."""
     example: ClassVar[Example | None] = None
     """With what it makes data, where it may be asked to."""
-    smooth: ClassVar[bool] = False
-    """Are its linear parameters so many that they want to be smooth? Fits then weigh `roughness` against errors."""
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:
@@ -96,11 +94,6 @@ class Model(ABC):
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The parameters with bounds and scaling that suit the ranges of these records."""
         return self.parameters
-
-    def roughness(self, p: Any) -> Array:
-        """(rows, len(linear)): what a smooth law has little of; p as in `simulate`, a swarm of 1, of which only the
-        parameters that are not linear matter."""
-        return np.empty((0, len(self.linear)))
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         """Sentences about what in these records the model cannot follow, such as a sign or a centre."""

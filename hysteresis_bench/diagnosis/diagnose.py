@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.laws.cause import law_as_cause
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
+from hysteresis_bench.diagnosis.laws.smoothing import Rough
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
@@ -91,7 +92,7 @@ def _promising(laws: Comparison, several: bool) -> list[str]:
 
 def _of_few_parameters(laws: Sequence[str]) -> list[str]:
     """Without densities of many parameters, among which effects would be lost."""
-    return [law for law in laws if not registry.build("models", law, {}).smooth]
+    return [law for law in laws if not isinstance(registry.build("models", law, {}), Rough)]
 
 
 def _told(best: Diagnosis, found: list[Diagnosis], laws: Comparison) -> str:

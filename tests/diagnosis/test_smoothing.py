@@ -1,8 +1,10 @@
 """A density that is as smooth as the data allow: found again from loops of several amplitudes, at one between them."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
@@ -48,3 +50,13 @@ def test_an_even_density_has_no_roughness():
     rough = law.roughness(p)
     np.testing.assert_allclose(rough @ even, 0.0, atol=1e-12)
     assert np.abs(rough @ np.arange(even.size)).max() > 0.1
+
+
+def test_the_unit_of_the_input_changes_nothing():
+    asked = [loop(amplitude) for amplitude in (2.0, 4.0)]
+    scaled = [replace(record, input=1e5 * record.input) for record in asked]
+    one, other = (
+        Smoothing(problem(records, plays=3, pieces=6)).searched(left_out(records)) for records in (asked, scaled)
+    )
+    assert one.weight == pytest.approx(other.weight, abs=1e-6)
+    np.testing.assert_allclose(one.left_out, other.left_out, atol=1e-6 * np.ptp(asked[1].measured))

@@ -11,6 +11,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.diagnosis.laws.left_out import LeftOut
+from hysteresis_bench.diagnosis.laws.smoothing import Rough
 
 
 def choose(laws: Sequence[Law], without: Array, out: LeftOut) -> tuple[str, str]:
@@ -30,7 +31,7 @@ def choose(laws: Sequence[Law], without: Array, out: LeftOut) -> tuple[str, str]
         why = "the paired test over blocks cannot tell them apart"
     else:
         # as smooth as is near, a density is the simplest of its kind already
-        chosen = best if _built(best).smooth else min(as_good, key=_safest)
+        chosen = best if isinstance(_built(best), Rough) else min(as_good, key=_safest)
         why = (
             "so few excitations cannot show how a law predicts another one, so that of the laws that are near the "
             "simplest with return-point memory is taken"

@@ -12,9 +12,10 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.left_out import left_out
-from hysteresis_bench.diagnosis.laws.smoothing import Smoothing
+from hysteresis_bench.diagnosis.laws.smoothing import Rough, Smoothing
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
@@ -22,6 +23,11 @@ from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.left_out import FURTHER, left_out_errors
 from hysteresis_bench.signals import Dataset, Record
+
+SEARCHES, ALIKE = 4, 1e-3
+"""Searches from different seeds, and the share by which the errors of two that agree differ at most."""
+CHEAP = 20000
+"""Samples times parameters up to which a search is made again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,9 +67,9 @@ class Laws:
     effects: tuple[str, ...] = ()
     seed: int = 0
 
-    def fitter(self, name: str, records: Sequence[Record]) -> Fitter:
-        """Of one law, with its default settings."""
-        return Fitter(Stack(registry.build("models", name, {}), tuple(records), self.effects), self.seed)
+    def fitter(self, name: str, records: Sequence[Record], run: int = 0) -> Fitter:
+        """Of one law, with its default settings; run : changes the seed."""
+        return Fitter(Stack(registry.build("models", name, {}), tuple(records), self.effects), self.seed + run)
 
     def law(self, name: str) -> Law:
         """Fitted, or with the reason why not."""
@@ -74,9 +80,9 @@ class Laws:
         if reasons := self._reasons(fitter):
             return Law(name, " ".join(reasons))
         problem = fitter.stack.problem({registry.RECORD_OFFSET})
-        if problem.system.model.smooth:
+        if isinstance(problem.system.model, Rough):
             return self._smoothed(name, problem, begun)
-        found = fitter.bare(frozenset({registry.RECORD_OFFSET}))
+        found = self._found(name)
         count = problem.space.dimension
         if found.rmse >= 0.999 * _spread(self.records):
             return Law(name, "it follows these records no better than a constant.", parameters=count)
@@ -84,6 +90,18 @@ class Laws:
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
         return Law(name, "", *self._errors(system, values), unseen, count, time.process_time() - begun)
+
+    def _found(self, name: str) -> Hypothesis:
+        """The best of searches from different seeds, where they are cheap until two of them agree."""
+        found: list[Hypothesis] = []
+        for run in range(SEARCHES):
+            fitter = self.fitter(name, self.records, run)
+            found.append(fitter.bare(frozenset({registry.RECORD_OFFSET})))
+            first, *others = sorted(one.rmse for one in found)
+            size = found[0].residuals.size * len(found[0].values)
+            if size > CHEAP or any(other <= (1.0 + ALIKE) * first for other in others):
+                break
+        return min(found, key=lambda one: one.rmse)
 
     def _smoothed(self, name: str, problem: Problem, begun: float) -> Law:
         """A law of many linear parameters, as smooth as predicts best."""
@@ -105,7 +123,7 @@ class Laws:
         reasons = [f"{name}: {why}" for name, effect in system.effects if (why := effect.inapplicable(self.records))]
         samples = sum(record.measured.size for record in self.records)
         count = len(system.parameters)
-        if samples <= 2 * count and not system.model.smooth:
+        if samples <= 2 * count and not isinstance(system.model, Rough):
             reasons.append(f"{samples} samples are too few for its {count} parameters.")
         return reasons or broken_promises(system, self.records)
 

@@ -24,8 +24,8 @@ one. There a simpler law is taken whose error is at most so many times the best 
 measured devices' laws, and its error at another amplitude two to three times as large (piezo stack, friction damper,
 electrical steel); with 4 laws are taken that miss the shape of the loop."""
 SMOOTHER = 1.5
-"""The same of a smoother density: with 2 one of a ferrite's two loops misses the shape, with 1 the loop between them is
-three times as wrong; on generated loops there is little between."""
+"""The same of a smoother density, whose shape suffers before its error does; on generated loops there is little between
+1 and 2."""
 FEWEST = 2
 """Whole parts left out from which they can judge."""
 PARTS = 6

@@ -12,6 +12,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -20,14 +21,26 @@ from hysteresis_bench.diagnosis.laws.left_out import SMOOTHER, LeftOut
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
-SCREENED, STEPS = 12, 40
-"""Points of the parameters that are not linear, and steps downhill from the best of them."""
-LIGHTEST, HEAVIEST = -7.0, 1.0
+SCREENED, STEPS = 4, 15
+"""Points of the parameters that are not linear, and steps downhill from the best of them, for each dimension."""
+LIGHTEST, HEAVIEST = -6.0, 3.0
 """Powers of ten between which the weight lies, as a share of what makes both terms alike."""
 WEIGHTS = 25
 """Of them, tried from the heaviest one down."""
 RIDGE = 1e-10
 """Share of the diagonal that keeps every system definite."""
+
+
+@runtime_checkable
+class Rough(Protocol):
+    """A model whose linear parameters are so many that they want to be smooth."""
+
+    @property
+    def linear(self) -> tuple[str, ...]: ...
+
+    def roughness(self, p: Any) -> Array:
+        """(rows, len(linear)): what a smooth law has little of; p as in `Model.simulate`, a swarm of 1, of which only
+        the parameters that are not linear matter."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,9 +71,9 @@ class Smoothing:
         def left(point: Array) -> float:
             return _rms(self._predicted(np.clip(point, 0.0, 1.0), out.blocks))
 
-        points = Halton(dimension, scramble=False).random(SCREENED + 1)[1:]
+        points = Halton(dimension, scramble=False).random(SCREENED * dimension + 1)[1:]
         first = points[int(np.argmin([left(point) for point in points]))]
-        options = {"maxfev": STEPS, "xatol": 1e-3, "fatol": 1e-4 * left(first)}
+        options = {"maxfev": STEPS * dimension, "xatol": 1e-3, "fatol": 1e-4 * left(first)}
         found = minimize(left, first, method="Nelder-Mead", bounds=[(0.0, 1.0)] * dimension, options=options)
         point = np.clip(found.x, 0.0, 1.0)
         errors = best = self._predicted(point, out.blocks)
@@ -118,12 +131,14 @@ class Smoothing:
 
     def _penalty(self, point: Array, columns: Array) -> Array:
         """Weighted square of the roughness, (linear, linear)."""
-        model, names = self.problem.system.model, self.problem.space.names
+        model: Any = self.problem.system.model
+        names = self.problem.space.names
         rough: Array = model.roughness(SimpleNamespace(**dict(zip(names, self._values(point), strict=True))))
         square = np.zeros((len(self._rows), len(self._rows)))
-        own = [self._rows.index(names.index(name)) for name in model.linear]
+        own = np.array([self._rows.index(names.index(name)) for name in model.linear])
         square[np.ix_(own, own)] = rough.T @ rough
-        alike = np.sum(columns[:, own] ** 2) / max(np.trace(square), np.finfo(float).tiny)
+        # of those that can be rough alone: the others have other units
+        alike = np.sum(columns[:, np.diag(square) > 0.0] ** 2) / max(np.trace(square), np.finfo(float).tiny)
         return np.asarray(10.0 ** self._power(point) * alike * square)
 
     def _least(self, normal: Array, descent: Array, penalty: Array) -> Array:

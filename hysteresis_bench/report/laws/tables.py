@@ -71,8 +71,9 @@ def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Ta
         "Laws",
         header,
         rows,
-        note="Left out: every fitted record is predicted by a fit to the others; of a lone record, blocks are left "
-        "out. Each record has an offset of its own. What is held out is predicted and chooses nothing.",
+        note="Left out: what stays in the range of the rest is predicted by a fit to that, whole records or parts of a "
+        "lone one; of what goes further, blocks are left out. Parameters of a smooth density are counted as effective "
+        "ones. Each record has an offset of its own. What is held out is predicted and chooses nothing.",
     )
 
 

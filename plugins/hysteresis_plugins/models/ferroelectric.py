@@ -97,7 +97,7 @@ class Ferroelectric(Model):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Coercive fields up to half the span of the input; widths from a hundredth of the span to twice of it;
-        internal fields about the middle of the input's range, by a third of the span; saturations up to five times the
+        internal fields in the input's range; saturations up to five times the
         range of the output, on the side of the loops' sense, on both where the data do not say."""
         span, tallest = input_span(records), TALLEST * output_span(records)
         side = sense(records)
@@ -107,7 +107,7 @@ class Ferroelectric(Model):
         most = STEEPEST * steepness(records)
         edges = {
             "r": (0.0, 0.5 * span),
-            "b": (middle - span / 3.0, middle + span / 3.0),
+            "b": (middle - 0.5 * span, middle + 0.5 * span),
             "w": (0.01 * span, 2.0 * span),
         }
         permittivity, *others = self.parameters

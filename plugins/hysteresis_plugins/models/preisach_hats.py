@@ -71,7 +71,6 @@ class PreisachHats(Model):
     linear = tuple(parameter.name for parameter in parameters[3:])
     properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
-    smooth = True
 
     plays: int = 8
     pieces: int = 16
@@ -98,8 +97,9 @@ class PreisachHats(Model):
         return p.radius * _graded(shares, p.grading), np.ascontiguousarray(nodes)
 
     def roughness(self, p: Any) -> Array:
-        """Differences of the density from cell to cell, each times the root of the cells' areas, so that it is a rise;
-        along every curve, and from play to play but for that of the input itself, which stands beside the density."""
+        """Differences of the density from cell to cell, (rows, linear), each times the root of the cells' areas, so
+        that it is a rise: along every curve, and from play to play but for that of the input itself, which stands
+        beside the density."""
         radii, nodes = (cells[:, 0] for cells in self.cells(p))
         lengths = np.diff(nodes)
         widths = np.concatenate([[p.radius[0] / (self.plays + 1.0)], np.diff(np.append(radii, p.radius[0]))[1:]])
@@ -115,12 +115,12 @@ class PreisachHats(Model):
         return found
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """The radius from a fiftieth of half the span of the input to all of it, the centre in the middle tenth;
-        weights up to twice the range of the output, on the side of the loops' sense, on both where the data do not
-        say."""
+        """Of the scored input: the radius from a fiftieth of half its span to all of it, the centre in its middle
+        tenth; weights up to twice the range of the output, on the side of the loops' sense, on both where the data do
+        not say."""
         radius, centre, grading, slope, *weights = self.parameters
-        low = min(float(np.min(record.input)) for record in records)
-        high = max(float(np.max(record.input)) for record in records)
+        low = min(float(np.min(record.input[record.scored])) for record in records)
+        high = max(float(np.max(record.input[record.scored])) for record in records)
         half, middle, most = 0.5 * (high - low) or 1.0, 0.5 * (low + high), STEEPEST * steepness(records)
         side, tallest = sense(records), TALLEST * output_span(records)
         rising = side > 0 and not falling(records, "")
