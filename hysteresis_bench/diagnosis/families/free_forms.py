@@ -23,6 +23,8 @@ def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
         if better is None:
             break
         current = better
+    if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
+        current = named
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
 
