@@ -13,6 +13,7 @@ import click
 from docs.docstrings import markdown
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
+from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Parameter
 
 OURS = "hysteresis-bench"
@@ -78,6 +79,7 @@ def _acts(name: str, effect: Any) -> str:
     if name in registry.offered():
         models = ", ".join(f"[{model}](models.md#{model})" for model in registry.offered()[name])
         words += f" It stands inside the state equation of {models}."
+    words += " A free form: it stands for its family where no formula fits." if issubclass(effect, FreeForm) else ""
     return f"{words} A nuisance: it is estimated and never claimed." if effect.nuisance else words
 
 

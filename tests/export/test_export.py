@@ -19,6 +19,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.export.write import exported
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
 from hysteresis_bench.fit.preparation import Preparation
+from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.signals import Dataset, Record
 
 TIME = np.linspace(0.0, 2.0, 1500) + 0.0002 * np.sin(np.arange(1500))
@@ -175,8 +176,10 @@ def test_c_and_python_say_what_predict_says(case, tmp_path, compiler):
     close([alone.step(state, t, u) for t, u in zip(TIME.tolist(), INPUT.tolist(), strict=True)], known)
 
 
+FREE_FORMS = [name for name in registry.names("effects") if issubclass(registry.effect(name), FreeForm)]
 REFUSED = {
     "temperature-sensitivity": "a step is given time and input alone",
+    **dict.fromkeys(FREE_FORMS, "a curve without a formula"),
 }
 
 

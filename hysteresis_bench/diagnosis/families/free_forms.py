@@ -23,6 +23,8 @@ def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
         if better is None:
             break
         current = better
+    if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
+        current = named
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
 
@@ -31,13 +33,23 @@ def _freed(selection: Selection, current: Hypothesis, forms: list[str]) -> Hypot
     """With one free form more, the one that does best; None where the names do as well as all of them."""
     if current.rmse <= MATTERS * selection.floor:
         return None
-    found = [system for system in selection.with_each(current, forms) if _clearly(selection, current, system)]
+    tried = [*selection.with_each(current, forms), *_in_place(selection, current, forms)]
+    found = [system for system in tried if _clearly(selection, current, system)]
     if not found:
         return None
     better = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
     # beside all that is named a free form is one claim more: a little misfit is too little for it
     more = len(selection.adopted(better)) > len(selection.adopted(current))
     return None if more and current.rmse <= MISFIT * selection.floor else better
+
+
+def _in_place(selection: Selection, current: Hypothesis, forms: list[str]) -> list[Hypothesis]:
+    """Every free form in the place of each name of its family, whose part it may not take over from beside it, such as
+    a hum's fundamental from its overtone."""
+    effect = selection.fitter.stack.effect
+    pairs = [(n, f) for n in selection.adopted(current) for f in forms if effect(n).family == effect(f).family]
+    smaller = {name: selection.without(current, name) for name, _ in pairs}
+    return selection.workers.map([("extended", smaller[name], form, current.values) for name, form in pairs])
 
 
 def _clearly(selection: Selection, current: Hypothesis, system: Hypothesis) -> bool:

@@ -13,3 +13,7 @@ def temperature_sensitivity(effect: Any, p: Mapping[str, float], timed: bool) ->
 def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
     if effect.terms:
         raise ValueError("its terms are made of a whole record, samples to come included")
+
+
+def free_form(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
+    raise ValueError("it is a curve without a formula, of which no form of one sample at a time is written")
