@@ -183,8 +183,7 @@ class Part:
     """A fitted plugin as it goes on by one sample, behind an entry point of the group `hysteresis_bench.exports`:
     a function part(plugin, parameters by name, timed) in a module that has `law`, or `before` and `after`.
 
-    constants, state : what these functions find in p, and the length of s
-    invertible : `inverse`, or `undone`, may be called
+    constants, state : what these functions find in p, and the length of s;  invertible : has `inverse`, or `undone`
     The function returns None for a part that changes nothing, and raises ValueError with why it cannot be exported.
     """
 

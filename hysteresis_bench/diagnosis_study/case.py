@@ -34,6 +34,7 @@ class Case:
 
     named : hidden effects that were claimed by name;  tied : claimed only as tied with another
     missed : hidden and neither;  extra : claimed without being hidden
+    sure : probabilities of the claims, in their order, "-" where none is told
     family : those of the missed for which the free form of their family was claimed, which stands under extra
     before, after : RMSE held out, over the noise (an estimate where the rig does not tell);  fresh : the same, after,
         on records that were neither fitted nor held out, without what is imperfect about these
@@ -52,6 +53,7 @@ class Case:
     missed: str = ""
     extra: str = ""
     family: str = ""
+    sure: str = ""
     verdict: str = ""
     noise: float | None = None
     before: float | None = None
@@ -115,6 +117,7 @@ def run_case(ticket: CaseTicket) -> Case:
         tied=" ".join(tied),
         missed=" ".join(missed),
         extra=" ".join(extra),
+        sure=" ".join(f"{found.certainty[n].probability:.3f}" if n in found.certainty else "-" for n in claimed),
         family=" ".join(by_family(missed, [families[name] for name in extra if name in families])),
         verdict=found.verdict,
         noise=noise,

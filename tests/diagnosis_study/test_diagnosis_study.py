@@ -16,6 +16,7 @@ from hysteresis_bench.diagnosis_study.results import CASES, FOLDER, STUDY, read_
 from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
+from hysteresis_bench.report.diagnosis_study.reliability import reliability
 
 STUDIES = Path(__file__).parents[2] / "studies"
 
@@ -203,3 +204,22 @@ def test_the_command_writes_the_page_of_a_diagnosis_study_again(tmp_path):
     ran = CliRunner().invoke(main, ["report", str(tmp_path)])
     assert ran.exit_code == 0, ran.output
     assert "something was claimed in 0 of 1" in (tmp_path / "report.html").read_text()
+
+
+def test_the_page_holds_probabilities_against_what_was_right(tmp_path):
+    (tmp_path / STUDY).write_text(TEXT)
+    claims = [("0.950", ""), ("0.930", ""), ("0.300", "drift"), ("-", "drift")]
+    cases = [
+        Case("clean", "bouc-wen", number, "done", claimed="drift", extra=extra, sure=sure, before=1.0, after=1.0)
+        if extra
+        else Case("clean", "bouc-wen", number, "done", hidden="drift", claimed="drift", named="drift", sure=sure)
+        for number, (sure, extra) in enumerate(claims)
+    ]
+    bins = reliability(cases)
+    assert [(one.claims, one.right) for one in bins] == [(1, 0), (2, 2)]
+    assert bins[1].told == pytest.approx(0.94)
+    write_tables(tmp_path, cases)
+    assert [case.sure for case in read_cases(tmp_path)] == [sure for sure, _ in claims]
+    page = write_diagnosis_study_page(tmp_path).read_text()
+    assert "How sure, and how right" in page
+    assert (tmp_path / "figures" / "reliability.svg").is_file()

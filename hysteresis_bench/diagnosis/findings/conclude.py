@@ -23,6 +23,7 @@ from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warning
 from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.certainty import Certainty, certainties
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import response_table, simulated
@@ -87,6 +88,7 @@ def conclude(
         doubtful=outcome.doubted,
         model=model,
         families=family_findings(model),
+        certainty=_certainty(outcome, question.options.seed),
         responses=_responses(prepared.dataset, stages.before, after),
         split={
             "fitted": [record.name for record in prepared.dataset.fitted],
@@ -98,6 +100,15 @@ def conclude(
         given_up=found.given_up,
         unseen=unseen_rmse(found.thin, found.final),
     )
+
+
+def _certainty(outcome: Outcome, seed: int) -> dict[str, Certainty]:
+    """Of the claimed effects; of no offset, and of no mere description."""
+    found = outcome.found
+    claims = [name for name in outcome.named if name in found.best.names]
+    rivals = {name: sum(tie.effect == name for tie in outcome.ties) for name in claims}
+    left = (outcome.cause.unseen if outcome.cause else found.best.cv_rmse) / found.selection.floor
+    return certainties(found.selection, found.best, rivals, left, seed)
 
 
 def _described(found: Found, equation: Equation, prepared: Prepared) -> Stage:

@@ -105,6 +105,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "unseen": None,
         "laws": None,
         "stand_ins": [],
+        "certainty": {},
         "better_law": None,
     }
     candidates = [
@@ -120,7 +121,9 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     noise_rms : of the noise;  floor : RMS from which anything is judged, a little above it
     doubtful : is so much left that the names may stand in for something else?
     described : those of the effects that describe what was left, and explain nothing
-    stand_ins : in the final model beside the effects, and not named: the better law needs none of them
+    certainty : of each claimed effect, the probability that it, or one tied with it, is there, and what that rests on
+    stand_ins : in the final model beside the effects, and not named: the better law does not need them, or it is an
+    offset beside something that is not explained
     offset_of_both : the offset, where the system before has it as the one after has
     """
     offset = diagnosis.offset
@@ -131,6 +134,9 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "headline": diagnosis.headline,
         "effects": list(diagnosis.effects),
         "stand_ins": list(diagnosis.stand_ins),
+        "certainty": {
+            name: {"probability": one.probability, **asdict(one)} for name, one in diagnosis.certainty.items()
+        },
         "better_law": None if diagnosis.better_law is None else asdict(diagnosis.better_law),
         "described": [name for name in diagnosis.effects if name == DESCRIPTION],
         "offset": offset or None,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from html import escape
 from typing import Any, Literal
 
@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.laws.comparison import Comparison
+from hysteresis_bench.diagnosis.search.certainty import Certainty
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.fit.model_file import FittedModel
 
@@ -31,13 +32,15 @@ class Diagnosis:
 
     headline : the verdict as a sentence
     better_law : a law that does clearly better than the one that was asked about
-    stand_ins : adopted, and in the final model, but not needed around the better law
+    stand_ins : adopted, and in the final model, but not named: not needed around the better law, or an offset beside
+    something that is not explained
     effects : adopted and named, the largest first;  waterfall : label and RMSE on the fitted records, from the bare
     model to the noise;  responses : record, role, time, input, output, before, after over the scored samples
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
     doubtful : so much is left that the names may stand in for something else
+    certainty : of each claimed effect
     families : what none of its formulas fits, each with its curve
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
     model : ready to predict and to be written
@@ -70,6 +73,7 @@ class Diagnosis:
     better_law: Cause | None = None
     doubtful: bool = False
     families: tuple[FamilyFinding, ...] = ()
+    certainty: Mapping[str, Certainty] = field(default_factory=dict)
     laws: Comparison | None = None
 
     def _repr_html_(self) -> str:

@@ -48,8 +48,11 @@ class Outcome:
 
     @property
     def stand_ins(self) -> tuple[str, ...]:
-        """Of what was adopted, what only stands in for the law; an offset for all records is none of the law's."""
-        spare = {*self.cause.stand_ins, registry.COMMON_OFFSET} if self.cause else set()
+        """Of what was adopted, what only stands in for the law. An offset for all records is a finding only where
+        nothing else is left, and no curve, whose zero is as it happens, was needed."""
+        spare = {*self.cause.stand_ins} if self.cause else set[str]()
+        if self.unexplained or forms_of(tuple(name for name in self.adopted if name != registry.DESCRIPTION)):
+            spare.add(registry.COMMON_OFFSET)
         return tuple(name for name in self.adopted if name in spare)
 
     @property
@@ -82,7 +85,7 @@ def headline(outcome: Outcome) -> str:
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         said = f"The model {'may lack' if outcome.doubted else 'lacks'} {named}: {moved}"
-    elif outcome.stand_ins:
+    elif outcome.cause and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
     elif outcome.cause:
         said = f"No effect is named, as the law itself is the cause: {where} the RMSE is {last.rmse:.3g}{unit}"

@@ -21,7 +21,7 @@ from hysteresis_bench.report.diagnosis.tables import added_table, candidates_tab
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
 from hysteresis_bench.report.shared.page import Page, Section
-from hysteresis_bench.report.shared.text import listed, sentence
+from hysteresis_bench.report.shared.text import listed, percent, sentence
 
 FILE = "diagnosis.html"
 
@@ -100,6 +100,9 @@ def _title(found: Mapping[str, Any]) -> str:
 def _answers(found: Mapping[str, Any]) -> Iterator[str]:
     """What follows the verdict: memory, ties, the next experiment."""
     yield sentence(found["hysteresis"]["words"])
+    if sure := found["certainty"]:
+        told = listed([f"{name} {percent(one['probability'])}" for name, one in sure.items()])
+        yield f"How often such claims were right on made cases, tied effects counted as one: {told}."
     if ties := found["ties"]:
         rivals = {tie["effect"]: [t["rival"] for t in ties if t["effect"] == tie["effect"]] for tie in ties}
         parts = [f"{name} or, as well, {listed(others)}" for name, others in rivals.items()]

@@ -1,4 +1,4 @@
-"""The confusion matrix of a study of diagnosis."""
+"""The confusion matrix and the reliability diagram of a study of diagnosis."""
 
 from __future__ import annotations
 
@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from hysteresis_bench.report.diagnosis.figures import AFTER, BEFORE
-from hysteresis_bench.report.shared.theme import Picture, picture
+from hysteresis_bench.report.diagnosis_study.reliability import Bin
+from hysteresis_bench.report.shared.theme import MUTED, Picture, picture
+from hysteresis_bench.statistics import wilson
 
 
 def confusion_matrix(
@@ -31,3 +33,21 @@ def confusion_matrix(
     size = (1.9 + 0.36 * len(columns), 1.6 + 0.32 * len(rows))
     caption = "Hidden against claimed, in cases. Blue: the right name. Orange: another name, tied ones included."
     return picture(folder, name, size, alt="Confusion matrix; the table has the numbers.", caption=caption, draw=draw)
+
+
+def reliability_diagram(folder: Path, bins: Sequence[Bin]) -> Picture:
+    """The share of right claims over the probability that was told, with Wilson's intervals."""
+
+    def draw(figure: Any) -> None:
+        axes = figure.add_subplot()
+        axes.plot([0, 1], [0, 1], color=MUTED, linewidth=0.8, zorder=1)
+        for one in bins:
+            low, high = wilson(one.right, one.claims)
+            axes.plot([one.told, one.told], [low, high], color=AFTER, linewidth=1.4, zorder=2)
+            axes.scatter(one.told, one.right / one.claims, s=26, color=AFTER, linewidth=0, zorder=3)
+        axes.set(xlim=(0, 1.02), ylim=(0, 1.02), xlabel="Probability told", ylabel="Share of right claims")
+
+    caption = "Claims in bins of the probability told with them; bars: 95 % intervals. On the line they were right."
+    return picture(
+        folder, "reliability", (3.4, 3.2), alt=f"{caption} The table has the numbers.", caption=caption, draw=draw
+    )

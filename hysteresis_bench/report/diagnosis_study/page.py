@@ -12,10 +12,11 @@ from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
 from hysteresis_bench.diagnosis_study.results import CASES, CONFUSION, STUDY, read_cases
 from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix
+from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix, reliability_diagram
+from hysteresis_bench.report.diagnosis_study.reliability import Bin, reliability
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
-from hysteresis_bench.report.shared.text import NONE, listed, number, whole
+from hysteresis_bench.report.shared.text import NONE, listed, number, percent, whole
 from hysteresis_bench.statistics import wilson
 
 FILE = "report.html"
@@ -45,6 +46,7 @@ def write_diagnosis_study_page(folder: Path) -> Path:
     failures = _failures([case for case in cases if case.status != "done"])
     sections = [
         Section("confusion", "What was hidden, and what was claimed", confusions),
+        *_sure(folder, cases),
         Section("benches", "The error, before and after", [benches]),
         *([Section("wrong", "Where it went wrong", [wrong])] if wrong.rows else []),
         *([Section("failures", "What did not finish", [failures])] if failures.rows else []),
@@ -57,6 +59,33 @@ def write_diagnosis_study_page(folder: Path) -> Path:
 def answer(folder: Path) -> list[str]:
     """The answer in sentences."""
     return _answer(*_halves(folder))
+
+
+def _sure(folder: Path, cases: Sequence[Case]) -> list[Section]:
+    """Were the probabilities right? No section where none was told."""
+    bins = reliability(cases)
+    if not bins:
+        return []
+    count = sum(one.claims for one in bins)
+    error = sum(one.claims * abs(one.right / one.claims - one.told) for one in bins) / count
+    header = ["Probability told", "Claims", "Mean told", "Right", "95\u202f% interval"]
+    rows = [_bin(one) for one in bins]
+    note = "Right: of the claims, those whose effect was hidden, or one tied with it. Intervals are Wilson's."
+    told = f"{count} claims; the mean gap between what was told and what was right is {percent(error, 2)}."
+    return [
+        Section(
+            "sure",
+            "How sure, and how right",
+            [told, Figures([reliability_diagram(folder, bins)]), Table("Claims by probability", header, rows, note)],
+        )
+    ]
+
+
+def _bin(one: Bin) -> list[str | Cell]:
+    low, high = wilson(one.right, one.claims)
+    share = Cell(percent(one.right / one.claims), "good" if low <= one.told <= high else "bad")
+    bounds = f"{percent(one.low)} to {percent(one.high)}"
+    return [bounds, whole(one.claims), percent(one.told), share, f"{percent(low)} to {percent(high)}"]
 
 
 def _how(notes: Sequence[str]) -> Section:
