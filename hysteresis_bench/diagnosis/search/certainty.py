@@ -28,9 +28,9 @@ from hysteresis_bench.fit.unseen.blocks import Blocks
 DRAWS = 1000
 
 CALIBRATION = (4.13, -0.28, -1.27, 0.72)
-"""Constant, then weights of `Certainty.numbers`, fitted to 114 claims of 94 cases of the rig `hidden-effects`: six laws,
-none to three effects, own and other formulas, imperfect records, and a few wrong laws. Fitted to 19 of 20 parts and told
-of the twentieth, they were off by 0.048 on average. Where many are wrong it has seen few: below 0.8 it is a guess."""
+"""Constant, then weights of `Certainty.numbers`, fitted to 114 claims of 94 cases of the rig `hidden-effects`: six
+laws, none to three effects, own and other formulas, imperfect records, and a few wrong laws. Fitted to 19 of 20 parts
+and told of the twentieth, they were off by 0.048 on average. It has seen few wrong claims: below 0.8 it is a guess."""
 
 
 @dataclass(frozen=True)
