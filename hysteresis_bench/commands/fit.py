@@ -59,13 +59,7 @@ def fit(
 
     A run that was stopped goes on after its last finished search when it is called again.
     """
-    from hysteresis_bench import FitOptions, load
-    from hysteresis_bench import fit as fit_model
-    from hysteresis_bench.commands.data.journal import journal
-    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.errors import UserError
-    from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
-    from hysteresis_bench.report.fit.page import FILE
 
     if not model:
         raise UserError(
@@ -73,6 +67,13 @@ def fit(
             "name a law with --model; `list models` shows them, `compare` ranks them on your data, and `diagnose` "
             "finds one without --model.",
         )
+    from hysteresis_bench import FitOptions, load
+    from hysteresis_bench import fit as fit_model
+    from hysteresis_bench.commands.data.journal import journal
+    from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
+    from hysteresis_bench.report.fit.page import FILE
+
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()

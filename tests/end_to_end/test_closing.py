@@ -91,7 +91,7 @@ def test_the_report_ends_with_what_was_found(closed):
     assert 'href="closing/diagnosis.html"' in text
     for name in ("closing/model.json", "closing/diagnosis.html", "figures/closing-waterfall.svg"):
         assert (closed / name).is_file(), name
-    assert text.count("<svg") == 3
+    assert text.count("<svg") == 5
 
 
 def test_the_report_is_written_again_without_a_diagnosis(closed, monkeypatch):

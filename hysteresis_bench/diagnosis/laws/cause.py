@@ -107,7 +107,8 @@ class OtherLaws:
                 break
             least = min(spare, key=lambda name: smaller[name].cv_rmse)
             names.remove(least)
-            current = smaller[least]
+            # with more effects than are needed a search may have ended elsewhere
+            current = min(smaller[least], fitter.bare(self._offset | {*names}), key=lambda one: one.rmse)
         return Contender(law, tuple(names), fitter.unseen(current))
 
     def _possible(self, fitter: Fitter) -> list[str]:
