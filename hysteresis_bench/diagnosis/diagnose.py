@@ -8,6 +8,7 @@ from dataclasses import replace
 from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
@@ -66,7 +67,9 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
     left = remainder(stages.after, found.evidence)
-    others = [] if left.slow else [name for name in laws if name != law]
+    # slow noise blames nobody, unless a curve without a formula was needed to come down to it
+    blameless = left.slow and not forms_of(stages.adopted)
+    others = [] if blameless else [name for name in laws if name != law]
     cause = law_as_cause(found, others, question.options)
     return conclude(dataset, question, prepared, found, stages, left, cause)
 
