@@ -114,7 +114,8 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     table = Table("effect", "", "sure", "RMSE", "left out", "p", "tied with", box=None, pad_edge=False)
     for row in (row for row in found.candidates if row.applicable):
         mark = "adopted" if row.adopted else "stand-in" if row.stand_in else "at its bound" if row.at_bound else ""
-        sure = f"{one.probability:.0%}" if (one := found.certainty.get(row.effect)) else ""
+        told = one.probability if (one := found.certainty.get(row.effect)) else None
+        sure = "" if told is None else f"{told:.0%}"
         numbers = sure, f"{row.rmse:.4g}", f"{row.cv_rmse:.4g}", f"{row.p:.2g}"
         table.add_row(row.effect, mark, *numbers, ", ".join(row.tied_with), style="bold" if row.adopted else "")
     console.print(table)

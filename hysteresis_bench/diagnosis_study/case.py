@@ -10,6 +10,7 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Rig
+from hysteresis_bench.diagnosis.search.certainty import Certainty
 from hysteresis_bench.diagnosis_study.study_file import BenchSpec, DiagnosisStudy
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.problems import measure
@@ -117,7 +118,7 @@ def run_case(ticket: CaseTicket) -> Case:
         tied=" ".join(tied),
         missed=" ".join(missed),
         extra=" ".join(extra),
-        sure=" ".join(f"{found.certainty[n].probability:.3f}" if n in found.certainty else "-" for n in claimed),
+        sure=" ".join(_told(found.certainty.get(name)) for name in claimed),
         family=" ".join(by_family(missed, [families[name] for name in extra if name in families])),
         verdict=found.verdict,
         noise=noise,
@@ -127,6 +128,11 @@ def run_case(ticket: CaseTicket) -> Case:
         unfitted=found.before.fitted.rmse / noise,
         seconds=seconds,
     )
+
+
+def _told(certainty: Certainty | None) -> str:
+    told = certainty.probability if certainty else None
+    return "-" if told is None else f"{told:.3f}"
 
 
 def compared(

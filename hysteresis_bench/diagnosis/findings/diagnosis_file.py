@@ -121,7 +121,8 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     noise_rms : of the noise;  floor : RMS from which anything is judged, a little above it
     doubtful : is so much left that the names may stand in for something else?
     described : those of the effects that describe what was left, and explain nothing
-    certainty : of each claimed effect, the probability that it, or one tied with it, is there, and what that rests on
+    certainty : of each claimed effect, the probability that it, or one tied with it, is there (null where too much is
+    left to tell one), and what that rests on
     stand_ins : in the final model beside the effects, and not named: the better law does not need them, or it is an
     offset beside something that is not explained
     offset_of_both : the offset, where the system before has it as the one after has

@@ -19,7 +19,8 @@ from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, SHARE
 from hysteresis_bench.signals import Record
 
 NEAR = 0.05
-"""Share of its range by which the input may miss its extremes. Half and twice of it gave the same on four made cases."""
+"""Share of its range by which the input may miss its extremes. With half and with twice of it four made cases had the
+same answer."""
 
 
 def only_in_beginnings(found: Found) -> tuple[str, ...] | None:

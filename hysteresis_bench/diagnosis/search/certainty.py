@@ -32,6 +32,10 @@ CALIBRATION = (4.13, -0.28, -1.27, 0.72)
 laws, none to three effects, own and other formulas, imperfect records, and a few wrong laws. Fitted to 19 of 20 parts
 and told of the twentieth, they were off by 0.048 on average. It has seen few wrong claims: below 0.8 it is a guess."""
 
+SEEN = 1.2
+"""Times the noise that may be left for a probability to be told: 106 of the 114 claims had no more. On the virtual rig
+of a shape memory alloy, at 7.6 times the noise, the regression told 0.9 for two names that are not there."""
+
 
 @dataclass(frozen=True)
 class Certainty:
@@ -54,8 +58,10 @@ class Certainty:
         return np.array([np.log(max(self.left, 1.0)), self.names - 1.0, np.log1p(self.rivals)])
 
     @property
-    def probability(self) -> float:
-        """Of the effect, or of one tied with it, being there."""
+    def probability(self) -> float | None:
+        """Of the effect, or of one tied with it, being there; None where more is left than the made cases left."""
+        if self.left > SEEN:
+            return None
         constant, *weights = CALIBRATION
         return float(1.0 / (1.0 + np.exp(-constant - self.numbers @ np.array(weights))))
 

@@ -101,8 +101,12 @@ def _answers(found: Mapping[str, Any]) -> Iterator[str]:
     """What follows the verdict: memory, ties, the next experiment."""
     yield sentence(found["hysteresis"]["words"])
     if sure := found["certainty"]:
-        told = listed([f"{name} {percent(one['probability'])}" for name, one in sure.items()])
-        yield f"How often such claims were right on made cases, tied effects counted as one: {told}."
+        told = [f"{name} {percent(p)}" for name, one in sure.items() if (p := one["probability"]) is not None]
+        yield (
+            f"How often such claims were right on made cases, tied effects counted as one: {listed(told)}."
+            if told
+            else "How sure the names are is not known: more is left here than on the made cases that could tell."
+        )
     if ties := found["ties"]:
         rivals = {tie["effect"]: [t["rival"] for t in ties if t["effect"] == tie["effect"]] for tie in ties}
         parts = [f"{name} or, as well, {listed(others)}" for name, others in rivals.items()]

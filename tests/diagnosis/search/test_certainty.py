@@ -40,6 +40,7 @@ def test_the_same_seed_gives_the_same_frequencies():
 
 
 def test_what_is_left_makes_a_name_less_sure_and_no_name_is_certain():
-    clean, left = Certainty(1.0, 1.0, 1, 0), Certainty(1.0, 2.0, 1, 0)
+    clean, left = Certainty(1.0, 1.0, 1, 0), Certainty(1.0, 1.15, 1, 0)
     assert 0.0 < left.probability < clean.probability < 1.0
+    assert Certainty(1.0, 2.0, 1, 0).probability is None  # of so much left the made cases know too little
     assert Certainty(1.0, 1.0, 3, 0).probability < clean.probability
