@@ -68,7 +68,6 @@ def _table(rows: pd.DataFrame) -> Table:
                 Cell(met or NONE, "good" if met == "reached" else ""),
                 percent(row.held_out / row.range) if ran else NONE,
                 number(row.floor, 2) if ran else NONE,
-                Cell(row.repeats or NONE),
             ]
         )
     header = [
@@ -80,9 +79,12 @@ def _table(rows: pd.DataFrame) -> Table:
         "",
         "Of the range",
         "Noise",
-        "Cycles repeat to",
     ]
-    note = "RMSE on records that no law was fitted to, or on the last third of the only one. The noise is the fast one."
+    repeats = "; ".join(f"{row.device} {row.repeats}" for row in rows.itertuples() if row.repeats)
+    note = (
+        "RMSE on records that no law was fitted to, or on the last third of the only one. The noise is the fast one. "
+        f"Cycles repeat to: {repeats}."
+    )
     return Table("Held-out errors", header, lines, note=note)
 
 
