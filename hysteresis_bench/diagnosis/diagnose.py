@@ -7,13 +7,13 @@ from dataclasses import replace
 
 from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
+from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
-from hysteresis_bench.diagnosis.laws.cause import law_as_cause
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
 from hysteresis_bench.diagnosis.laws.smoothing import Rough
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
@@ -69,9 +69,14 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     left = remainder(stages.after, found.evidence)
     # slow noise blames nobody, unless a curve without a formula was needed to come down to it
     blameless = left.slow and not forms_of(stages.adopted)
-    others = [] if blameless else [name for name in laws if name != law]
-    cause = law_as_cause(found, others, question.options)
-    return conclude(dataset, question, prepared, found, stages, left, cause)
+    doubted = Doubt()
+    if not blameless:
+        doubted = doubt(found, question, laws, _of_few_parameters(registry.names("models")))
+        known, found = found, answered(found, doubted, question.options)
+        if found.best is not known.best:
+            stages = settle_offset(prepared, found, question)
+            left = remainder(stages.after, found.evidence)
+    return conclude(dataset, question, prepared, found, stages, left, doubted)
 
 
 def _in_mid_loop(spare: Sequence[str]) -> str:

@@ -21,8 +21,8 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.laws.cause import Contender
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.origin import processor, versions

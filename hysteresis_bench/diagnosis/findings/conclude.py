@@ -10,6 +10,7 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.families.finding import family_findings
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
 from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
@@ -20,7 +21,6 @@ from hysteresis_bench.diagnosis.findings.stages import Stage, Stages, stage_of
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie, tie
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
-from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.certainty import Certainty, certainties
@@ -41,10 +41,11 @@ def conclude(
     found: Found,
     stages: Stages,
     left: Remainder,
-    cause: Cause | None,
+    doubt: Doubt,
 ) -> Diagnosis:
-    """dataset : as measured;  left : in the residual of the last stage;  cause : the law that does clearly better"""
-    stand_ins = cause.stand_ins if cause else ()
+    """dataset : as measured;  left : in the residual of the last stage;  doubt : whether the law is wrong"""
+    held = doubt.holding(tuple(found.rivals))
+    stand_ins = tuple(name for name in found.rivals if name not in held)
     ties = tuple(
         tie(name, rival, found.best.apart(other))
         for name, rivals in found.rivals.items()
@@ -60,7 +61,7 @@ def conclude(
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
         left = remainder(after, evidence)
     model = _model(after, prepared, question)
-    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, cause)
+    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, doubt)
     waterfall = tuple((f"{name} (stand-in)" if name in outcome.stand_ins else name, rmse) for name, rmse in waterfall)
     return Diagnosis(
         model_name=question.model,
@@ -72,7 +73,8 @@ def conclude(
         headline=headline(outcome),
         effects=outcome.named,
         stand_ins=outcome.stand_ins,
-        better_law=cause,
+        better_law=doubt.cause,
+        agreement=doubt.agreement,
         offset=stages.offset,
         before=stages.before,
         after=after,

@@ -107,6 +107,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "stand_ins": [],
         "certainty": {},
         "better_law": None,
+        "agreement": None,
     }
     candidates = [
         {"judgement": _judgement(c["adopted"], c["tied_with"], c["p_value"], c["advantage"]), **c}
@@ -123,8 +124,8 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     described : those of the effects that describe what was left, and explain nothing
     certainty : of each claimed effect, the probability that it, or one tied with it, is there (null where too much is
     left to tell one), and what that rests on
-    stand_ins : in the final model beside the effects, and not named: the better law does not need them, or it is an
-    offset beside something that is not explained
+    stand_ins : in the final model beside the effects, and not named: a law that does better, or as well, does not
+    need them, or it is an offset beside something that is not explained
     offset_of_both : the offset, where the system before has it as the one after has
     """
     offset = diagnosis.offset
@@ -139,6 +140,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
             name: {"probability": one.probability, **asdict(one)} for name, one in diagnosis.certainty.items()
         },
         "better_law": None if diagnosis.better_law is None else asdict(diagnosis.better_law),
+        "agreement": None if diagnosis.agreement is None else asdict(diagnosis.agreement),
         "described": [name for name in diagnosis.effects if name == DESCRIPTION],
         "offset": offset or None,
         "offset_of_both": offset if offset in diagnosis.before.names else None,

@@ -9,6 +9,8 @@ from typing import Any, Literal
 
 import pandas as pd
 
+from hysteresis_bench.diagnosis.doubt.agreement import Agreement
+from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.families.finding import FamilyFinding
@@ -17,7 +19,6 @@ from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.laws.comparison import Comparison
 from hysteresis_bench.diagnosis.search.certainty import Certainty
 from hysteresis_bench.diagnosis.search.fallback import Fallback
@@ -32,8 +33,9 @@ class Diagnosis:
 
     headline : the verdict as a sentence
     better_law : a law that does clearly better than the one that was asked about
-    stand_ins : adopted, and in the final model, but not named: not needed around the better law, or an offset beside
-    something that is not explained
+    agreement : of the laws on what is needed, where this one does not follow the data and none does clearly better
+    stand_ins : adopted, and in the final model, but not named: not needed around a law that does better, or as well,
+    or an offset beside something that is not explained
     effects : adopted and named, the largest first;  waterfall : label and RMSE on the fitted records, from the bare
     model to the noise;  responses : record, role, time, input, output, before, after over the scored samples
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
@@ -71,6 +73,7 @@ class Diagnosis:
     unseen: float
     stand_ins: tuple[str, ...] = ()
     better_law: Cause | None = None
+    agreement: Agreement | None = None
     doubtful: bool = False
     families: tuple[FamilyFinding, ...] = ()
     certainty: Mapping[str, Certainty] = field(default_factory=dict)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.doubt.cause import Cause
+from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis.laws.cause import Cause
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.identifiability.combinations import listed
@@ -23,7 +24,7 @@ class Outcome:
     """What is to be told: both ends, what was adopted on the way, and whether something remains.
 
     left : in the residual;  units : of the output, as the records have it
-    model : the law that was asked about;  cause : the law that does clearly better
+    model : the law that was asked about;  doubt : whether the law is wrong, and what holds whatever the law
     """
 
     before: Stage
@@ -34,7 +35,11 @@ class Outcome:
     left: Remainder
     units: Mapping[str, str]
     model: str
-    cause: Cause | None
+    doubt: Doubt
+
+    @property
+    def cause(self) -> Cause | None:
+        return self.doubt.cause
 
     @property
     def evidence(self) -> Evidence:
@@ -50,8 +55,9 @@ class Outcome:
     def stand_ins(self) -> tuple[str, ...]:
         """Of what was adopted, what only stands in for the law. An offset for all records is a finding only where
         nothing else is left, and no curve, whose zero is as it happens, was needed."""
-        spare = {*self.cause.stand_ins} if self.cause else set[str]()
-        if self.unexplained or forms_of(tuple(name for name in self.adopted if name != registry.DESCRIPTION)):
+        names = [name for name in self.adopted if name != registry.DESCRIPTION]
+        spare = {*names} - {*self.doubt.holding(names)}
+        if self.unexplained or forms_of(tuple(names)):
             spare.add(registry.COMMON_OFFSET)
         return tuple(name for name in self.adopted if name in spare)
 
@@ -67,7 +73,14 @@ class Outcome:
     @property
     def doubted(self) -> bool:
         """Is so much left that the names may stand in for what is wrong with the law?"""
-        return self.after.fitted.rmse > WRONG * self.evidence.floor and not self.left.slow and self.cause is None
+        much = max(self.leaves) > WRONG and not self.left.slow
+        return much and self.doubt == Doubt()
+
+    @property
+    def leaves(self) -> tuple[float, float]:
+        """RMSE of the final system over the floor: on what was fitted, and on what was held out."""
+        held_out = self.after.held_out or self.after.fitted
+        return self.after.fitted.rmse / self.evidence.floor, held_out.rmse / self.evidence.floor
 
 
 def headline(outcome: Outcome) -> str:
@@ -85,6 +98,8 @@ def headline(outcome: Outcome) -> str:
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         said = f"The model {'may lack' if outcome.doubted else 'lacks'} {named}: {moved}"
+    elif outcome.doubt.agreement and outcome.stand_ins:
+        said = f"No effect is named, as other laws do as well without any of these: with what helps this one, {moved}"
     elif outcome.cause and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
     elif outcome.cause:
@@ -94,20 +109,30 @@ def headline(outcome: Outcome) -> str:
     said = f"{said}; the noise is {outcome.evidence.noise.floor:.3g}."
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
-    if outcome.cause:
-        said += f" {_of_the_law(outcome, outcome.cause)}"
+    if outcome.doubt != Doubt():
+        said += f" {' '.join(_of_the_law(outcome))}"
     elif outcome.unexplained:
         said += " Something is left that no effect explains."
     return said
 
 
-def _of_the_law(outcome: Outcome, cause: Cause) -> str:
-    """What the better law does, and what is then no longer needed."""
-    better = f"{cause.model} with {listed(cause.effects)}" if cause.effects else f"{cause.model} alone"
-    own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
-    left = f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
-    stand_ins = f" {listed(outcome.stand_ins)} may stand in for the law." if outcome.stand_ins else ""
-    return f"{left} {cause.own:.3g}.{stand_ins}"
+def _of_the_law(outcome: Outcome) -> Iterator[str]:
+    """What a better law does, what all laws need, and what then only stands in for the law."""
+    cause, agreed = outcome.cause, outcome.doubt.agreement
+    if cause:
+        better = f"{cause.model} with {listed(cause.effects)}" if cause.effects else f"{cause.model} alone"
+        own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
+        yield f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
+        yield f"{cause.own:.3g}."
+    else:
+        yield "The law itself does not follow the data, and no other one here does clearly better."
+    if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):
+        others = f"None of the {len(agreed.needs) - 1} other laws that leave no more"
+        yield f"{others} does without {listed(names)} or the like."
+    if outcome.stand_ins:
+        doing = {name: agreed.without(name) if agreed else "" for name in outcome.stand_ins}
+        disputed = [f"{name} ({reason})" if reason else name for name, reason in doing.items()]
+        yield f"{listed(disputed)} may stand in for the law."
 
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
@@ -115,6 +140,11 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
     if family := forms_of((name,)).get(name):
         return f"{name} (of the family {family}; no formula here fits)"
     return f"{name} (or {', '.join(rivals)}: these records cannot tell)" if rivals else name
+
+
+def _times(outcome: Outcome) -> str:
+    fitted, held_out = outcome.leaves
+    return f"{fitted:.2g} times" if fitted > WRONG else f"{held_out:.2g} times (held out; {fitted:.2g} times fitted)"
 
 
 def _gave_up(fallback: Fallback) -> str:
@@ -136,8 +166,8 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if outcome.doubted and found.follows:
         said.append(
-            f"The final system still leaves {after.fitted.rmse / floor:.2g} times the noise: the model's own law does "
-            "not follow these data, and what is named may stand in for that."
+            f"The final system still leaves {_times(outcome)} the noise: the model's own law does not follow these "
+            "data, and what is named may stand in for that."
         )
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")

@@ -50,3 +50,11 @@ def fall_back(fitter: Fitter, base: Hypothesis, order: Grown) -> Fallback | None
 def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
     """RMSE over all fitted records, each predicted by a fit to the others; of a lone record, over its blocks."""
     return float(np.sqrt(np.mean(fitter.unseen(hypothesis) ** 2)))
+
+
+def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> list[Hypothesis]:
+    """Without those that predict records left out worse than the best of them, by this share of their mean square."""
+    if len(hypotheses) < 2 or len(fitter.stack.records) < 2:
+        return hypotheses
+    squares = [unseen_rmse(fitter, hypothesis) ** 2 for hypothesis in hypotheses]
+    return [one for one, square in zip(hypotheses, squares, strict=True) if (1.0 - worse) * square <= min(squares)]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
@@ -16,7 +16,7 @@ from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
-from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back
+from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
@@ -81,28 +81,53 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
         best = with_free_forms(selection, best)
         on_step(Step("what the data say of the selection"))
         answers = follows(full, best)
-        best = best if answers else base
-        order = _in_order(selection, base, best)
-        given_up = fall_back(thin, base, order)
-        if given_up:
-            order = order[: len(order) - len(given_up.dropped)]
-            best = order[-1][1] if order else base
-        final = with_simplest_offset(selection, best)
-        return Found(
+        bare = Found(
             full=full,
             thin=thin,
             evidence=evidence,
             selection=selection,
             base=base,
-            best=best,
-            final=final,
+            best=base,
+            final=base,
             follows=answers,
-            rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
-            without={name: selection.without(best, name) for name in selection.adopted(best)},
-            order=order,
-            given_up=given_up,
+            rivals={},
+            without={},
+            order=(),
+            given_up=None,
             impossible=impossible,
         )
+        return _ending_with(bare, best if answers else base)
+
+
+def with_more(found: Found, asked: Sequence[Sequence[str]]) -> Found:
+    """With one of each of these groups of like effects, where it is needed and helps to predict records left out."""
+    selection, best = found.selection, found.best
+    for names in asked:
+        needed = [system for system in selection.with_each(best, names) if selection.needed(best, system)]
+        if needed:
+            (more,) = selection.workers.map([("refitted", selection.simplest(needed))])
+            best = more if unseen_rmse(found.thin, more) < unseen_rmse(found.thin, best) else best
+    return found if best is found.best else replace(_ending_with(found, best), given_up=found.given_up)
+
+
+def _ending_with(found: Found, best: Hypothesis) -> Found:
+    """What is told of a selected system; where it predicts records left out worse than the bare model, of a smaller
+    one."""
+    selection, base = found.selection, found.base
+    order = _in_order(selection, base, best)
+    given_up = fall_back(found.thin, base, order)
+    if given_up:
+        order = order[: len(order) - len(given_up.dropped)]
+        best = order[-1][1] if order else base
+    return replace(
+        found,
+        best=best,
+        final=with_simplest_offset(selection, best),
+        rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
+        without={name: selection.without(best, name) for name in selection.adopted(best)},
+        order=order,
+        given_up=given_up,
+    )
 
 
 def _in_order(selection: Selection, base: Hypothesis, best: Hypothesis) -> tuple[tuple[str, Hypothesis], ...]:

@@ -22,6 +22,7 @@ from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.fallback import predicting
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""
@@ -161,17 +162,19 @@ class Selection:
     def simplest(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
         """Of the best and those tied with it, those with fewest parameters (what a model offers inside its state
         equation only where nothing around it does as well); of these, of the best and those tied with it, the
-        alphabetically first."""
+        alphabetically first. Where the model is wrong, none that predicts records left out much worse."""
         for key in (self._plainness, lambda hypothesis: sorted(hypothesis.names)):
             best = min(hypotheses, key=lambda hypothesis: hypothesis.cv_rmse)
-            alike = [hypothesis for hypothesis in hypotheses if hypothesis is best or self.tied(best, hypothesis)]
+            alike = [one for one in hypotheses if one is best or self.tied(best, one)]
+            if alike[0].rmse > MISFIT * self.floor:
+                alike = predicting(self.fitter, alike, NAMED)
             least = min(map(key, alike))
             hypotheses = [hypothesis for hypothesis in alike if key(hypothesis) == least]
         return hypotheses[0]
 
     def _plainness(self, hypothesis: Hypothesis) -> list[int]:
         return [
-            len(hypothesis.at_bound) > 0,
+            any("." in name for name in hypothesis.at_bound),  # an effect's own, not the law's
             len(hypothesis.values),
             len(hypothesis.names & set(self.fitter.stack.model.offers)),
         ]
@@ -233,10 +236,7 @@ class Selection:
 
     def _exchanged(self, current: Hypothesis) -> Hypothesis | None:
         for name in self.adopted(current):
-            rivals = list(self.alternatives(current, name).values())
-            if not rivals:
-                continue
-            best = self.simplest([current, *rivals])
+            best = self.simplest([current, *self.alternatives(current, name).values()])
             if best is not current and best.cv_rmse < ALIKE * current.cv_rmse:
                 clear = advantage(best.left_out, current.left_out, self.fitter.blocks) > CLEAR
                 more = len(best.values) - len(current.values)

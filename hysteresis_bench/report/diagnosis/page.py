@@ -17,7 +17,7 @@ from hysteresis_bench.report.diagnosis.before_after import (
     ties_in_words,
 )
 from hysteresis_bench.report.diagnosis.figures import family_curve
-from hysteresis_bench.report.diagnosis.tables import added_table, candidates_table, tests_tables
+from hysteresis_bench.report.diagnosis.tables import added_table, agreement_table, candidates_table, tests_tables
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
 from hysteresis_bench.report.shared.page import Page, Section
@@ -137,7 +137,10 @@ def _shown(records: Sequence[pd.DataFrame]) -> list[pd.DataFrame]:
 
 def _considered(kept: KeptDiagnosis) -> Section:
     found = kept.diagnosis
-    blocks: list[Block] = [candidates_table(found["candidates"], kept.model["units"])]
+    units = kept.model["units"]
+    blocks: list[Block] = [candidates_table(found["candidates"], units)]
+    if agreed := found["agreement"]:
+        blocks.append(agreement_table(agreed, found["floor"], units))
     if found["ties"]:
         blocks += [Heading("What these data cannot tell apart"), Bullets(ties_in_words(found["ties"]))]
     impossible = [f"{c['effect']}: {c['reason']}." for c in found["candidates"] if not c["applicable"]]

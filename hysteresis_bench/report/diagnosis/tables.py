@@ -46,6 +46,28 @@ def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units) -> T
     )
 
 
+def agreement_table(agreed: Mapping[str, Any], floor: float, units: Units) -> Table:
+    """What each law needs that leaves no more than the one that was asked about."""
+    rows: list[list[str | Cell]] = [
+        [
+            Cell(law, strong=not place),
+            number(agreed["left"][law], 3),
+            number(agreed["left"][law] / floor, 3),
+            Cell(listed(needed) or NONE, "prose"),
+        ]
+        for place, (law, needed) in enumerate(agreed["needs"].items())
+    ]
+    return Table(
+        "What each law needs",
+        ["Law", f"{named('RMSE', units, 'output')}, some samples", "times the noise", "Needs"],
+        rows,
+        note="The law that was asked about, then all rate-independent ones that leave no more of the same samples, "
+        "each with those of the effects in question that it needs. An effect that all of them need, or one like it, "
+        "makes up for the fault of none. What has no dynamics, such as a curve of the output, any law may have in its "
+        "shape.",
+    )
+
+
 def _candidate(candidate: Mapping[str, Any]) -> list[str | Cell]:
     adopted, judgement = candidate["adopted"], candidate["judgement"]
     values = [

@@ -50,6 +50,9 @@ class EddyCurrent(Effect):
             "where the slope of the loop changes little, eddy currents are a lag, and a small lag before the "
             "hysteresis and one after it differ only at second order"
         ),
+        "resonance": (
+            "where the slope of the loop changes little, eddy currents are a lag, and so is a damped resonance"
+        ),
         "transport-delay": (
             "where the slope of the loop changes little, eddy currents are a lag, which at one frequency is a delay"
         ),

@@ -1,0 +1,75 @@
+"""Which effects do the records ask for, whatever the law? Those that no law does without.
+
+Where the law that was asked about does not follow the records, and no other one comes down to the noise, every effect
+may stand in for what is wrong with the law. One without dynamics, such as a curve of the output or a play beside the
+law, makes with a rate-independent law just another such law: it cannot be told from the shape of the right one, and is
+not named. The others can. One that is needed around each of the laws that leave no more than the asked one makes up for
+the fault of none of them; where one of them does without, it may. A law that is not rate-independent is no witness, as
+it may hold the effect in itself. Needed is judged as everywhere: by the nested test, by blocks left out, and by an
+effect that the noise does not hide.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender
+
+WITNESSES = 3
+"""Laws beside the asked one, below which they are too few to agree; one is enough where it does clearly better."""
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """What is needed around every law that leaves no more than the one that was asked about.
+
+    needs : of the effects in question, what each law needs, by its name; the asked one first, then the best
+    left : RMSE of each law with these, on the samples that they were fitted to
+    effects : needed around all, and no part of a law's shape; of like ones that which most laws take, with the others
+    """
+
+    needs: Mapping[str, tuple[str, ...]]
+    left: Mapping[str, float]
+    effects: Mapping[str, tuple[str, ...]]
+
+    def without(self, name: str) -> str:
+        """Why it may stand in for the law: the best one beside the asked one that needs nothing like it, or none."""
+        if _is_shape(name):
+            return "as it has no dynamics, any law may have it in its shape"
+        others = list(self.needs.items())[1:]
+        found = next((law for law, needed in others if not any(alike(name, one) for one in needed)), "")
+        return found and f"{found} does without"
+
+
+def agreement(asked: Contender, others: Sequence[Contender], enough: int = WITNESSES) -> Agreement | None:
+    """None where the witnesses are too few. others : laws that leave no more than the asked one"""
+    if len(others) < enough:
+        return None
+    laws = (asked, *sorted(others, key=lambda one: one.rmse))
+    needs = {law.model: law.effects for law in laws}
+    taken = Counter(name for needed in needs.values() for name in needed)
+    effects: dict[str, tuple[str, ...]] = {}
+    for name in sorted(taken, key=lambda name: (-taken[name], name)):
+        likes = {other for other in taken if other != name and alike(name, other)}
+        told = {other for others in effects.values() for other in others}
+        if not _is_shape(name) and name not in told and all({name, *likes} & {*needed} for needed in needs.values()):
+            effects[name] = tuple(sorted(likes))
+    return Agreement(needs, {law.model: law.rmse for law in laws}, effects)
+
+
+def alike(one: str, other: str) -> bool:
+    """Are they one effect, or do they change the output alike: of one family, or one says that it is mistaken for the
+    other? What acts inside the law has nothing in common but the place."""
+    first, second = registry.effect(one), registry.effect(other)
+    related = other in first.mistaken_for or one in second.mistaken_for
+    return one == other or related or (first.family == second.family and first.family != "law")
+
+
+def _is_shape(name: str) -> bool:
+    """Has it no dynamics, so that with a rate-independent law it makes another one? What acts inside the state equation
+    has some."""
+    family = registry.effect(name).family
+    return family.startswith("curve") or (family == "law" and name not in registry.offered())

@@ -1,0 +1,76 @@
+"""Is the law itself the cause of what is left? Then effects that were adopted may only stand in for it.
+
+Where the final system predicts excitations left out worse than the noise allows, or needs a curve without a formula,
+every other law is fitted to a part of the samples, with the effects in question. Those that do best there are fitted to
+all, and effects that they do not need are taken off again. A law that predicts clearly better, and leaves less than
+half of the excess over the noise, is told as the cause; so is one that needs no curve and predicts as well as a system
+with one. What was adopted and is not needed around that law is a stand-in: it stays in the model, where it helps to
+predict, and is not named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender
+from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.diagnosis.search.selection import MATTERS, NAMED
+from hysteresis_bench.signals import Record
+
+PURSUED = 3
+"""Laws that are fitted to all samples: those that leave least of the few."""
+
+NOBODY = Contender("", (), np.empty(0))
+
+
+@dataclass(frozen=True)
+class Cause:
+    """A law that predicts clearly better.
+
+    effects : of those in question, what this law needs
+    unseen, own : RMSE on excitations left out of the fit (of a lone record, on its blocks), of this law with
+    `effects`, and of the law that was asked about with all that was adopted
+    """
+
+    model: str
+    effects: tuple[str, ...]
+    unseen: float
+    own: float
+
+
+def to_blame(found: Found) -> bool:
+    """Is more left than the noise allows, or was a curve without a formula needed?"""
+    own = found.thin.unseen(found.final)
+    curves = forms_of(found.selection.adopted(found.best))
+    return found.follows and bool(curves or np.sqrt(np.mean(own**2)) > MATTERS * found.selection.floor)
+
+
+def law_as_cause(
+    found: Found, screened: Sequence[Contender], few: tuple[Record, ...], workers: Workers[Contender]
+) -> Cause | None:
+    """None where no other law does clearly better.
+
+    screened : the laws that may stand in its place, fitted to the `few` samples
+    """
+    fitter, floor = found.thin, found.selection.floor
+    unseen = fitter.unseen(found.final)
+    own = float(np.sqrt(np.mean(unseen**2)))
+    adopted = found.selection.adopted(found.best)
+    curves = forms_of(adopted)
+    own_few = replace(fitter, stack=replace(fitter.stack, records=few))
+    left = own_few.errors(found.final.names, fitter.fitted(found.final)[1])
+    reach = float(np.sqrt(np.mean(left**2))) * (MATTERS if curves else 1.0)
+    promising = [one.model for one in sorted(screened, key=lambda one: one.rmse)[:PURSUED] if one.rmse < reach]
+    predicting = workers.map([("predicting", name) for name in promising])
+    best = min(predicting, key=lambda one: one.rmse, default=NOBODY)
+    explains = own > MATTERS * best.rmse and own**2 - best.rmse**2 > NAMED * (own**2 - floor**2)
+    clearly = explains and advantage(best.errors, unseen, fitter.blocks) > CLEAR
+    if not clearly and not (curves and best.rmse <= MATTERS * max(own, floor)):
+        return None
+    return Cause(best.model, best.effects, best.rmse, own)

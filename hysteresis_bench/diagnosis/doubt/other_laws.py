@@ -1,0 +1,99 @@
+"""Other laws around the records of a diagnosis, with those of the effects in question that each of them needs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.selection import Selection
+from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.signals import Record
+
+OFFSET = frozenset({registry.RECORD_OFFSET})
+
+
+@dataclass(frozen=True, eq=False)
+class Contender:
+    """A law around the records.
+
+    effects : those around it;  errors : (scored samples,), empty where it cannot be fitted
+    """
+
+    model: str
+    effects: tuple[str, ...]
+    errors: Array
+
+    @property
+    def rmse(self) -> float:
+        return float(np.sqrt(np.mean(self.errors**2))) if self.errors.size else np.inf
+
+
+@dataclass(frozen=True, eq=False)
+class OtherLaws:
+    """Fits laws to the records of a diagnosis.
+
+    asked : the law that was asked about, as `stack` has it;  few : the records of `stack` with fewer samples
+    effects : formulas in question;  floor : RMS of the noise
+    """
+
+    asked: str
+    stack: Stack
+    few: tuple[Record, ...]
+    effects: tuple[str, ...]
+    floor: float
+    seed: int
+
+    def screened(self, law: str) -> Contender:
+        """With all effects in question, and what it leaves of the few samples that it was fitted to."""
+        fitter = self._fitter(law, self.few)
+        system = fitter.stack.system(OFFSET)
+        enough = sum(record.measured.size for record in self.few) > 2 * len(system.parameters)
+        if not enough or broken_promises(system, self.few):
+            return Contender(law, (), np.empty(0))
+        names = self._possible(fitter)
+        return Contender(law, tuple(names), fitter.bare(OFFSET | {*names}).residuals)
+
+    def needy(self, law: str) -> Contender:
+        """With those of them that it needs around the few samples, and what it then leaves of them."""
+        system, names = self._thinned(fitter := self._fitter(law, self.few), self._possible(fitter))
+        return Contender(law, names, system.residuals)
+
+    def predicting(self, law: str) -> Contender:
+        """With those of them that it needs around all samples, and its errors on records left out of the fit."""
+        system, names = self._thinned(fitter := self._fitter(law, self.stack.records), self._possible(fitter))
+        return Contender(law, names, fitter.unseen(system))
+
+    def _thinned(self, fitter: Fitter, effects: Sequence[str]) -> tuple[Hypothesis, tuple[str, ...]]:
+        names = list(effects)
+        needs = Selection(fitter, Workers(fitter, 1), self.floor, tuple(names))
+        current = fitter.bare(OFFSET | {*names})
+        while names:
+            smaller = {name: fitter.reduced(current, name) for name in names}
+            spare = [name for name in names if not needs.needed(smaller[name], current)]
+            if not spare:
+                break
+            least = min(spare, key=lambda name: smaller[name].cv_rmse)
+            names.remove(least)
+            current = smaller[least]
+        # with more effects than are needed a search may have ended elsewhere
+        if len(names) < len(effects):
+            current = min(current, fitter.bare(OFFSET | {*names}), key=lambda one: one.rmse)
+        return current, tuple(names)
+
+    def _possible(self, fitter: Fitter) -> list[str]:
+        return [name for name in self.effects if name in fitter.stack.candidates()[0]]
+
+    def _fitter(self, law: str, records: tuple[Record, ...]) -> Fitter:
+        if law == self.asked:
+            stack = Stack(self.stack.model, records, self.stack.own, self.stack.bounds, self.stack.fixed)
+        else:
+            stack = Stack(registry.build("models", law, {}), records, self.stack.own)
+        return Fitter(stack, self.seed)

@@ -1,0 +1,70 @@
+"""An effect is named around a wrong law only where no law does without it."""
+
+import numpy as np
+
+from hysteresis_bench.diagnosis.doubt.agreement import agreement, alike
+from hysteresis_bench.diagnosis.doubt.cause import Cause
+from hysteresis_bench.diagnosis.doubt.doubt import Doubt
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender
+
+
+def law(name, rmse, *effects):
+    return Contender(name, effects, np.array([rmse]))
+
+
+ASKED = law("asked", 5.0, "input-lag", "saturation")
+
+
+def test_what_every_law_needs_is_agreed_and_the_others_are_told_in_their_order():
+    agreed = agreement(ASKED, [law("b", 3.0, "input-lag"), law("a", 2.0, "input-lag"), law("c", 4.0, "input-lag")])
+    assert list(agreed.needs) == ["asked", "a", "b", "c"]
+    assert agreed.effects == {"input-lag": ()}
+
+
+def test_one_law_that_does_without_is_enough_to_doubt_an_effect():
+    agreed = agreement(ASKED, [law("a", 2.0, "input-lag"), law("b", 3.0, "input-lag"), law("c", 4.0)])
+    assert agreed.effects == {}
+    assert agreed.without("input-lag") == "c does without"
+
+
+def test_effects_that_are_mistaken_for_each_other_count_as_one_and_the_frequent_one_is_told():
+    others = [law("a", 2.0, "eddy-current"), law("b", 3.0, "input-lag"), law("c", 4.0, "resonance", "fatigue")]
+    agreed = agreement(ASKED, others)
+    assert agreed.effects == {"input-lag": ("eddy-current", "resonance")}
+
+
+def test_what_has_no_dynamics_is_part_of_a_law_however_many_need_it():
+    others = [law(name, 2.0, "saturation", "backlash", "asymmetry", "creep") for name in "abc"]
+    agreed = agreement(law("asked", 5.0, "saturation", "backlash", "asymmetry", "creep"), others)
+    assert agreed.effects == {"creep": ()}
+    assert "shape" in agreed.without("backlash")
+
+
+def test_two_laws_beside_the_asked_one_are_too_few_to_agree():
+    assert agreement(ASKED, [law("a", 2.0, "input-lag"), law("b", 3.0, "input-lag")]) is None
+
+
+def test_likeness_goes_both_ways_and_a_place_inside_the_law_is_no_likeness():
+    assert alike("input-lag", "eddy-current")
+    assert alike("eddy-current", "input-lag")
+    assert alike("drift", "fatigue")  # of one family
+    assert not alike("backlash", "eddy-current")
+    assert not alike("saturation", "input-lag")
+
+
+def test_without_a_doubt_all_that_was_adopted_holds():
+    assert Doubt().holding(["creep", "saturation"]) == {"creep": (), "saturation": ()}
+    assert Doubt().asks_for(["creep"]) == []
+
+
+def test_of_two_like_effects_only_the_one_that_the_better_law_needs_holds():
+    doubted = Doubt(Cause("better", ("saturation",), 1.0, 5.0))
+    assert list(doubted.holding(["asymmetry", "backlash", "saturation"])) == ["saturation"]
+    assert list(doubted.holding(["asymmetry", "backlash"])) == ["asymmetry"]  # in its place
+    assert doubted.asks_for(["backlash"]) == ["saturation"]
+
+
+def test_beside_an_agreement_only_what_the_better_law_needs_too_holds():
+    agreed = agreement(ASKED, [law(name, 2.0, "input-lag", "drift") for name in "abc"])
+    assert Doubt(None, agreed).holding(["resonance"]) == {"resonance": ("input-lag",)}
+    assert Doubt(Cause("better", ("saturation",), 1.0, 5.0), agreed).holding(["input-lag"]) == {}
