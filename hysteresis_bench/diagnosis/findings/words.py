@@ -129,6 +129,8 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
     if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):
         others = f"None of the {len(agreed.needs) - 1} other laws that leave no more"
         yield f"{others} does without {listed(names)} or the like."
+    if refused := outcome.doubt.asks_for(outcome.adopted):
+        yield f"{listed(refused)} would be needed too, but does not help {outcome.model} to predict records left out."
     if outcome.stand_ins:
         doing = {name: agreed.without(name) if agreed else "" for name in outcome.stand_ins}
         disputed = [f"{name} ({reason})" if reason else name for name, reason in doing.items()]
