@@ -34,22 +34,26 @@ class Doubt:
     agreement: Agreement | None = None
 
     def asks_for(self, adopted: Sequence[str]) -> list[str]:
-        """Effects that are needed, and of which nothing alike was adopted."""
-        return [name for name in self._needed if not any(alike(name, other) for other in adopted)]
+        """Effects that are needed, and for which nothing alike was adopted."""
+        matched = self._matched(adopted)
+        return [name for name in self._needed if name not in matched.values()]
 
     def holding(self, adopted: Sequence[str]) -> dict[str, tuple[str, ...]]:
         """Of the adopted effects those that are more than stand-ins for the law, as far as is known, each with what is
-        taken in its place around other laws. One for each effect that is needed: itself, or the first one like it."""
+        taken in its place around other laws."""
         if self == Doubt():
             return {name: () for name in adopted}
-        held: dict[str, tuple[str, ...]] = {}
-        for needed in sorted(self._needed, key=lambda name: name not in adopted):
-            group = (needed, *(self.agreement.effects[needed] if self.agreement else ()))
-            left = [name for name in adopted if name not in held and alike(name, needed)]
-            if left:
-                name = needed if needed in left else left[0]
-                held[name] = tuple(other for other in group if other != name)
-        return held
+        likes = self.agreement.effects if self.agreement else {}
+        groups = {name: (needed, *likes.get(needed, ())) for name, needed in self._matched(adopted).items()}
+        return {name: tuple(other for other in group if other != name) for name, group in groups.items()}
+
+    def _matched(self, adopted: Sequence[str]) -> dict[str, str]:
+        """One adopted effect for each that is needed: itself, or else the first one like it."""
+        matched = {name: name for name in adopted if name in self._needed}
+        for needed in (name for name in self._needed if name not in matched):
+            left = [name for name in adopted if name not in matched and alike(name, needed)]
+            matched |= {name: needed for name in left[:1]}
+        return matched
 
     @property
     def _needed(self) -> tuple[str, ...]:
@@ -89,7 +93,8 @@ def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
         selection = found.selection
         selection.workers = workers
         lacking = doubted.asks_for(selection.adopted(found.best))
-        found = with_more(found, [[one for one in selection.candidates if alike(one, name)] for name in lacking])
+        left = [name for name in selection.candidates if name not in found.best.names]
+        found = with_more(found, [[one for one in left if alike(one, name)] for name in lacking])
         held = doubted.holding(tuple(found.rivals))
         rivals = {
             name: {
