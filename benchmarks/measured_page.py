@@ -124,9 +124,9 @@ def _how() -> Bullets:
             ),
             sentence(
                 "effects behind a law were given, as the source of the data names them: a tester's delay, thresholds "
-                "that grow with the frequency; leakage and the drift of an integrated current, which it says may act, stay "
-                "where the law then predicts better what was left out of its fit; all else the comparison found from "
-                "the fitted records alone"
+                "that grow with the frequency; leakage and the drift of an integrated current, which it says may act, "
+                "stay where the law then predicts better what was left out of its fit; all else the comparison found "
+                "from the fitted records alone"
             ),
             sentence(
                 "asked for steel and ferrite is a share of the largest flux density of all loops, for dampers, walls "
