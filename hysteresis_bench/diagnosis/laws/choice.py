@@ -3,7 +3,9 @@
 What is left out of a fit is like what is fitted, so that a richer law wins it and may yet fail on another excitation.
 The error on what was left out therefore counts the more, the more parameters a law has for the blocks that it is judged
 on: times 1 + parameters / blocks, as in Akaike's final prediction error [1]. Ours: of the RMSE, and blocks are the
-observations, as neighbouring samples tell the same.
+observations, as neighbouring samples tell the same. Of 122 choices on made data, like that of benchmarks/law_choice.py,
+84 % came within 1.2 times the least error on other excitations, 84 % with half of that weight, 77 % with twice, 80 %
+with none; the mean was 1.18, 1.28, 1.25 and 1.32 times.
 
 [1] H. Akaike, Ann. Inst. Stat. Math. 21 (1969) 243.
 """
