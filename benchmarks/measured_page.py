@@ -115,8 +115,9 @@ def _how() -> Bullets:
         [
             sentence(
                 "held-out errors of some devices were seen while laws and splits were being worked on: the factor for "
-                "smoother densities was set after those of the ferrite and the steel were known; how much a parameter "
-                "weighs in the choice of a law was set on made data (benchmarks/law_choice.py)"
+                "smoother densities was set after those of the ferrite and the steel were known, and leakage and drift "
+                "were asked of the films after that of the FeFET was; how much a parameter weighs in the choice of a "
+                "law was set on made data (benchmarks/law_choice.py), when those of all devices were known"
             ),
             sentence(
                 "of every device the laws of its own field and general ones were compared, not all registered ones; "
