@@ -5,7 +5,8 @@ The error on what was left out therefore counts the more, the more parameters a 
 on: times 1 + parameters / blocks, as in Akaike's final prediction error [1]. Ours: of the RMSE, and blocks are the
 observations, as neighbouring samples tell the same. Of 122 choices on made data, like that of benchmarks/law_choice.py,
 84 % came within 1.2 times the least error on other excitations, 84 % with half of that weight, 77 % with twice, 80 %
-with none; the mean was 1.18, 1.28, 1.25 and 1.32 times.
+with none; the mean was 1.18, 1.28, 1.25 and 1.32 times. The rule was found on them; of 21 fresh choices it brought 15
+within 1.2 times, the mean was 1.18 and the worst 2.25.
 
 [1] H. Akaike, Ann. Inst. Stat. Math. 21 (1969) 243.
 """
