@@ -37,6 +37,7 @@ class Device:
     """units : of time (sample: only an index), input and output;  held_out : names of runs, the last third where empty
     third : every third run is held out;  stride : every so manieth sample is kept
     laws : that are compared, all where empty;  effects : that the source of the data says act
+    perhaps : further ones that it says may act; they stay where what was left out is predicted better with them
     prepared : what the data's source asks for before a model sees them
     asked : RMSE that was asked for, in the unit of the output, as a share of the held-out range where `share`
     repeats : by how much equal cycles of the device differ, in words
@@ -51,6 +52,7 @@ class Device:
     options: DiagnosisOptions = PLAIN
     laws: tuple[str, ...] = ()
     effects: tuple[str, ...] = ()
+    perhaps: tuple[str, ...] = ()
     prepared: Callable[[list[Record]], list[Record]] = list
     asked: float | None = None
     share: bool = False
@@ -132,6 +134,7 @@ DEVICES = (
             options=SETTLED,
             laws=SWITCHING,
             effects=("threshold-rate", "transport-delay"),
+            perhaps=("leakage", "drift"),
             prepared=_runs(ABOVE),
             asked=asked,
             repeats=repeats,

@@ -115,8 +115,9 @@ def _how() -> Bullets:
         [
             sentence(
                 "held-out errors of some devices were seen while laws and splits were being worked on: the factor for "
-                "smoother densities was set after those of the ferrite and the steel were known, and some rows come "
-                "from slightly earlier states of the program"
+                "smoother densities was set after those of the ferrite and the steel were known, and leakage and drift "
+                "were asked of the films after that of the FeFET was; how much a parameter weighs in the choice of a "
+                "law was set on made data (benchmarks/law_choice.py), when those of all devices were known"
             ),
             sentence(
                 "of every device the laws of its own field and general ones were compared, not all registered ones; "
@@ -124,7 +125,9 @@ def _how() -> Bullets:
             ),
             sentence(
                 "effects behind a law were given, as the source of the data names them: a tester's delay, thresholds "
-                "that grow with the frequency; all else the comparison found from the fitted records alone"
+                "that grow with the frequency; leakage and the drift of an integrated current, which it says may act, "
+                "stay where the law then predicts better what was left out of its fit; all else the comparison found "
+                "from the fitted records alone"
             ),
             sentence(
                 "asked for steel and ferrite is a share of the largest flux density of all loops, for dampers, walls "

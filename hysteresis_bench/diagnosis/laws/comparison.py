@@ -21,7 +21,7 @@ from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
-from hysteresis_bench.diagnosis.laws.left_out import ALONE, left_out
+from hysteresis_bench.diagnosis.laws.left_out import left_out
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
@@ -32,6 +32,9 @@ from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
 
 BASELINE = "cubic polynomial"
+REACHABLE = 2.0
+"""Times what branches of the data's own leave on a few like excitations, from where no law is chosen: there one of few
+parameters may be expected to predict better than a richer one with half its error."""
 PASSES = 8
 """Of a closed loop before it is scored, with `settle`. A fit finds out how many its law needs; here all get as many."""
 
@@ -40,7 +43,7 @@ PASSES = 8
 class Comparison:
     """table : a row a law, the best first: law, parameters, fitted, unseen, held_out (RMSE, unit of the output),
     seconds (CPU), reason (why there is no fit)
-    chosen : the simplest law that predicts as well as the best, "" where none predicts better than the polynomial
+    chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -78,7 +81,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     if not names:
         names = registry.names("models")
         # branches of the data's own, judged on what they were not fitted to, do about as well as the best law
-        reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else ALONE)
+        reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else REACHABLE)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](thin, jobs, options.on_step, options.kept) as workers:
@@ -86,7 +89,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     without = baseline_errors(thin.records, out.blocks)
-    chosen, words = choose(laws, without, out)
+    chosen, words = choose(laws, without, out.blocks)
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."

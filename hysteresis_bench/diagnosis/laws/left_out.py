@@ -18,14 +18,10 @@ from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import cut
 from hysteresis_bench.signals import Record
 
-ALONE = 2.0
-"""Blocks left out of one excitation have its own amplitude, so that a richer law wins them and may yet fail at another
-one. There a simpler law is taken whose error is at most so many times the best one's. With 1 it is the richest of the
-measured devices' laws, and its error at another amplitude two to three times as large (piezo stack, friction damper,
-electrical steel); with 4 laws are taken that miss the shape of the loop."""
 SMOOTHER = 1.5
-"""The same of a smoother density, whose shape suffers before its error does; on generated loops there is little between
-1 and 2."""
+"""Blocks left out of one excitation have its own amplitude, so that a rougher density wins them and may yet fail at
+another one. There a smoother one is taken whose error is at most so many times the best one's: its shape suffers before
+its error does; on generated loops there is little between 1 and 2."""
 FEWEST = 2
 """Whole parts left out from which they can judge."""
 PARTS = 6
@@ -49,12 +45,12 @@ class LeftOut:
     blocks: Blocks
     telling: bool
 
-    def as_good(self, best: Array, other: Array, times: float = ALONE) -> bool:
-        """Does a simpler law do as well, so that it is taken? By the paired test over blocks where they can judge; else
-        where its error is at most so many times the best one's."""
+    def as_good(self, best: Array, other: Array) -> bool:
+        """Does a smoother density do as well, so that it is taken? By the paired test over blocks where they can judge;
+        else where its error is at most `SMOOTHER` times the best one's."""
         if self.telling:
             return advantage(best, other, self.blocks) < CLEAR
-        return float(np.mean(other**2)) <= times**2 * float(np.mean(best**2))
+        return float(np.mean(other**2)) <= SMOOTHER**2 * float(np.mean(best**2))
 
 
 def left_out(records: Sequence[Record]) -> LeftOut:

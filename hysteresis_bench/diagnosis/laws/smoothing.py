@@ -5,10 +5,12 @@ parameters that are not linear, are those whose law predicts best what was left 
 
 [1] P. H. C. Eilers, B. D. Marx, Statistical Science 11 (1996) 89; C. L. Lawson, R. J. Hanson, Solving Least Squares
     Problems, Prentice-Hall (1974), chapter 23, for the bounds.
+[2] R. J. Tibshirani, R. Tibshirani, Ann. Appl. Stat. 3 (2009) 822.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
@@ -17,7 +19,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.laws.left_out import SMOOTHER, LeftOut
+from hysteresis_bench.diagnosis.laws.left_out import LeftOut
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
@@ -45,7 +47,7 @@ class Rough(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Smoothed:
-    """values : (dimension,) in units;  left_out : (scored samples,) errors by the fit that did not count them
+    """values : (dimension,) in units;  left_out : (scored samples,) errors by what did not count them
     weight : of the roughness, as a power of ten;  freedom : effective number of parameters
     """
 
@@ -68,8 +70,11 @@ class Smoothing:
 
         dimension = len(self._others) + 1
 
+        tried = []
+
         def left(point: Array) -> float:
-            return _rms(self._predicted(np.clip(point, 0.0, 1.0), out.blocks))
+            tried.append(self._predicted(np.clip(point, 0.0, 1.0), out.blocks))
+            return _rms(tried[-1])
 
         points = Halton(dimension, scramble=False).random(SCREENED * dimension + 1)[1:]
         first = points[int(np.argmin([left(point) for point in points]))]
@@ -80,13 +85,13 @@ class Smoothing:
         for share in np.linspace(1.0, point[-1], WEIGHTS, endpoint=False):
             smoother = np.append(point[:-1], share)
             errors = self._predicted(smoother, out.blocks)
-            if out.as_good(best, errors, SMOOTHER):
+            if out.as_good(best, errors):
                 point = smoother
                 break
         else:
             errors = best
         values, freedom = self._solved(point)
-        return Smoothed(values, errors, self._power(point), freedom)
+        return Smoothed(values, _unchosen(errors, tried, out.blocks), self._power(point), freedom)
 
     def refitted(self, known: Smoothed) -> Array:
         """Values (dimension,) in units, of the same smoothness, for this problem's records."""
@@ -188,6 +193,19 @@ class Smoothing:
     @cached_property
     def _signs(self) -> Array:
         return np.where(self._high > 0.0, 1.0, -1.0)
+
+
+def _unchosen(errors: Array, tried: Sequence[Array], blocks: Blocks) -> Array:
+    """Errors (samples,) of every fold by what was tried and predicts the other folds best, where these are larger: what
+    is the least of many errors is no measure of how it predicts [2]."""
+    squares = np.array([np.bincount(blocks.fold, one**2, blocks.folds) for one in (errors, *tried)])
+    others = np.argmin(squares.sum(axis=1, keepdims=True) - squares, axis=0)
+    found = errors.copy()
+    for fold, best in enumerate(others):
+        if squares[best, fold] > squares[0, fold]:
+            of = blocks.fold == fold
+            found[of] = tried[best - 1][of]
+    return found
 
 
 def _rms(errors: Array) -> float:

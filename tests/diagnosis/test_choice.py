@@ -1,0 +1,36 @@
+"""Which law is taken: what a richer one gains must be more than its parameters are worth on so many blocks."""
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.diagnosis.laws.choice import choose
+from hysteresis_bench.diagnosis.laws.law import Law
+from hysteresis_bench.diagnosis.laws.smoothing import _unchosen
+from hysteresis_bench.fit.unseen.blocks import blocked
+
+PLAIN = np.full(400, 10.0)
+
+
+def law(name: str, error: float, parameters: int) -> Law:
+    return Law(name, unseen=np.full(400, error), parameters=parameters)
+
+
+@pytest.mark.parametrize(("blocks", "chosen"), [(20, "dahl"), (200, "preisach")])
+def test_a_richer_law_needs_more_blocks(blocks, chosen):
+    laws = [law("preisach", 1.0, 19), law("dahl", 1.2, 5)]
+    name, words = choose(laws, PLAIN, blocked([400], [blocks], 4))
+    assert name == chosen
+    assert ("5 parameters in place of 19" in words) == (chosen == "dahl")
+
+
+def test_no_law_is_taken_where_the_polynomial_does_better():
+    assert choose([law("dahl", 11.0, 5), Law("lugre", "why not")], PLAIN, blocked([400], [20], 4))[0] == ""
+
+
+def test_a_fold_is_judged_by_what_the_others_chose():
+    blocks = blocked([8], [4], 2)
+    first, second = blocks.fold == 0, blocks.fold == 1
+    chosen, other = np.where(first, 1.0, 3.0), np.where(first, 5.0, 2.0)
+    found = _unchosen(chosen, [other], blocks)
+    np.testing.assert_array_equal(found[first], 5.0)  # without it, the other one does best
+    np.testing.assert_array_equal(found[second], 3.0)
