@@ -3,7 +3,14 @@
 import numpy as np
 from numba import njit
 
-from hysteresis_bench.kernels.elementary import cosine_and_sine, exponential, logarithm, logarithm_to_2
+from hysteresis_bench.kernels.elementary import (
+    base_2_logarithm,
+    base_2_logarithm_to_2,
+    cosine_and_sine,
+    exponential,
+    logarithm,
+    power_of_2,
+)
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -39,9 +46,20 @@ def test_the_ends_are_kept():
     assert logarithms[3] == 0.0
 
 
+def test_those_of_base_2():
+    power, general = njit(lambda x: power_of_2(x)), njit(lambda x: base_2_logarithm(x))
+    x = -np.random.default_rng(2).uniform(0.0, 1020.0, 5000)
+    np.testing.assert_allclose([power(value) for value in x], np.exp2(x), rtol=1e-15, atol=0)
+    assert [power(0.0), power(-1.0), power(-1e9)] == [1.0, 0.5, 2.0**-1022]
+    sizes = np.concatenate([np.exp2(x), np.exp2(-x), np.exp2(x / 1020.0)])
+    expected = np.log2(sizes)
+    found = np.array([general(value) for value in sizes])
+    assert np.max(np.abs(found - expected) / np.maximum(np.abs(expected), 1.0)) < 1e-15
+
+
 def test_the_logarithm_to_2_is_the_logarithm():
     x = np.concatenate([1.0 + np.linspace(0.0, 1.0, 10001), 1.0 + 2.0 ** -np.arange(1.0, 53.0)])
-    general, short = njit(lambda x: logarithm(x)), njit(lambda x: logarithm_to_2(x))
+    general, short = njit(lambda x: base_2_logarithm(x)), njit(lambda x: base_2_logarithm_to_2(x))
     assert [short(value) for value in x] == [general(value) for value in x]
 
 
