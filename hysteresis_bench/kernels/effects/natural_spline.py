@@ -97,21 +97,27 @@ def splines_at(x, low, scale, extremes, knots, pieces, out):  # type: ignore[no-
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def spline_values(x: Array, curves: Curves) -> Array:
-    """x : float64[samples, swarm], an abscissa each -> float64[samples, swarm], unit of the ordinates."""
+def add_spline_of_own(y: Array, x: Array, curves: Curves) -> None:
+    """y + s(x) in place of y, of an abscissa each; x : float64[samples, swarm], may be y
+
+    Indices that cannot be negative let loops over columns be vectorised.
+    """
     low, scale, _, knots, pieces = curves
     samples, swarm = x.shape
-    values, piece = np.empty((samples, swarm)), np.empty(swarm, dtype=np.int64)
+    origins = np.append(knots[:1], knots)
+    place, piece, one = np.empty(swarm), np.empty(swarm, dtype=np.uint64), np.uint64(1)
     for i in range(samples):
-        piece[:] = 0
+        for j in range(swarm):
+            place[j] = (x[i, j] - low[j]) * scale[j]
+            piece[j] = 0
         for k in range(knots.size):
             knot = knots[k]
             for j in range(swarm):
-                piece[j] += 1 if (x[i, j] - low[j]) * scale[j] > knot else 0
+                piece[j] += one if place[j] > knot else 0
         for j in range(swarm):
-            k = piece[j]
-            values[i, j] = _cubic(pieces, k, j, (x[i, j] - low[j]) * scale[j] - knots[max(k - 1, 0)])
-    return values
+            place[j] = _cubic(pieces, piece[j], j, place[j] - origins[piece[j]])
+        for j in range(swarm):
+            y[i, j] += place[j]
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})

@@ -68,20 +68,22 @@ class Spline:
 
 def add(y: Array, x: Array, curves: Curves) -> None:
     """y + s(x) in place of y, (samples, swarm);  x : (samples, 1) or (samples, swarm), y itself too"""
-    from hysteresis_bench.kernels.effects.natural_spline import add_spline, spline_values
+    from hysteresis_bench.kernels.effects.natural_spline import add_spline, add_spline_of_own
 
     if x.shape[1] > 1:
-        y += spline_values(x, curves)
+        add_spline_of_own(y, x, curves)
     else:
         add_spline(y, x[:, 0], curves)
 
 
 def scale(y: Array, x: Array, curves: Curves) -> None:
     """y (1 + s(x)) in place of y; the arguments as in `add`"""
-    from hysteresis_bench.kernels.effects.natural_spline import scale_by_spline, spline_values
+    from hysteresis_bench.kernels.effects.natural_spline import add_spline_of_own, scale_by_spline
 
     if x.shape[1] > 1:
-        y *= 1.0 + spline_values(x, curves)
+        factor = np.ones_like(y)
+        add_spline_of_own(factor, x, curves)
+        y *= factor
     else:
         scale_by_spline(y, x[:, 0], curves)
 
