@@ -31,6 +31,7 @@ def kernels() -> list[Line]:
 
     rng = np.random.default_rng(0)
     grid = np.linspace(0.0, 6.0, SAMPLES)
+    uneven = grid + np.random.default_rng(1).uniform(-4e-4, 4e-4, SAMPLES)
     u = np.ascontiguousarray(2.5 * np.sin(np.pi * grid)[:, None])
     p = rng.uniform(0.0, 2.0, (4, PARTICLES))
     one, small = np.ones(PARTICLES), rng.normal(0.0, 1e-9, PARTICLES)
@@ -46,6 +47,7 @@ def kernels() -> list[Line]:
         ("lag of the input", lambda: lag(grid, u, constants[0]), 2.0),
         ("lag of the output", lambda: lag(grid, y, constants[0]), 2.0),
         ("delay", lambda: delay(grid, y, constants[0]), 2.0),
+        ("delay, uneven steps", lambda: delay(uneven, y, constants[0]), 2.0),
         ("resonance", lambda: second_order(grid, y, 100.0 * one, 1e5 * one), 2.0),
         ("creep, five relaxations", lambda: late_response(grid, y, 0.3 * one, constants), 2.0),
         ("saturation", lambda: saturate(y, level, sharpness), 5.0),

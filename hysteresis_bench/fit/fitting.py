@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
+from functools import partial
 from html import escape
 from typing import Any
 
@@ -13,14 +14,16 @@ import pandas as pd
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.contracts import Optimizer
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.fit.checks.edges import at_edges
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
-from hysteresis_bench.fit.least_squares import at_bound, polish
+from hysteresis_bench.fit.least_squares import at_bound, not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
@@ -36,7 +39,8 @@ from hysteresis_bench.signals import Dataset, Record
 
 @dataclass(frozen=True)
 class FitOptions:
-    """How a fit is made: two searches from different starts, on records that are prepared.
+    """How a fit is made: two searches from different starts, on records that are prepared. Where effects act, the
+    first one begins at the fitted model without them as well.
 
     optimizer, optimizer_settings : a registered optimizer;  budget : evaluations of each search
     seed : of both searches
@@ -167,10 +171,10 @@ def fit_records(
         (
             *system.model.advice(seen.fitted),
             *not_closed(best.gap, best.repeats),
-            *_edges(parameters, system.linear),
+            *at_edges(parameters, system.linear),
             *analysis.sentences(),
         ),
-        (*dataset.notes, *_notes(space, options, best.repeats)),
+        (*dataset.notes, *_notes(problem, options, best.repeats)),
     )
 
 
@@ -224,6 +228,17 @@ def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple
     return Space(tuple(parameters))
 
 
+def _best(problem: Problem, *, optimizer: Optimizer, options: FitOptions, run: int, said: str) -> Array:
+    """What one search finds, (dimension,) in units."""
+
+    def counted(evaluations: int) -> None:
+        options.on_step(Step(said, evaluations, options.budget))
+
+    key = (options.seed, "fit", run)
+    start, rng = shared_start(problem.space.dimension, *key), generator(*key)
+    return search(problem, optimizer, budget=options.budget, start=start, rng=rng, on_evaluated=counted).values
+
+
 def _searched(system: System, space: Space, dataset: Dataset, options: FitOptions) -> _Searched:
     """Both searches, each polished; with `settle` the loops' passes are doubled until the fitted model closes them."""
     optimizer = registry.build("optimizers", options.optimizer, options.optimizer_settings)
@@ -237,19 +252,12 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
             if options.kept is not None and (values := options.kept.get(asked)) is not None:
                 found.append(values)
                 continue
-            key = (options.seed, "fit", run)
-            start = shared_start(space.dimension, *key)
             said = f"search {run + 1} of 2{f', {repeats} passes of every loop' if options.settle else ''}"
-
-            def counted(evaluations: int, what: str = said) -> None:
-                options.on_step(Step(what, evaluations, options.budget))
-
-            counted(0)
-            rng = generator(*key)
-            best = search(problem, optimizer, budget=options.budget, start=start, rng=rng, on_evaluated=counted)
-            found.append(best.values)
+            options.on_step(Step(said, 0, options.budget))
+            best = partial(_best, optimizer=optimizer, options=options, run=run, said=said)
+            found.append(best(problem) if run else not_overlooked(problem, best(problem), best))
             if options.kept is not None:
-                options.kept[asked] = best.values
+                options.kept[asked] = found[-1]
         options.on_step(Step("to the nearest optimum"))
         polished = polish(problem, np.column_stack(found))
         losses = problem.losses(space.to_unit(polished))
@@ -262,22 +270,13 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         repeats *= 2
 
 
-def _edges(parameters: pd.DataFrame, linear: Sequence[str]) -> list[str]:
-    """A weight of 0 is no edge: that part of a sum is not there."""
-    off = parameters["name"].isin(linear) & (parameters["value"].abs() <= 1e-12 * parameters["value"].abs().max())
-    return [
-        f"{row.name} lies at the edge of its box ({row.value:.4g}): the optimum may lie outside, and its standard "
-        f"error means little."
-        for row in parameters[parameters["at_bound"] & ~off].itertuples(index=False)
-    ]
-
-
-def _notes(space: Space, options: FitOptions, repeats: int) -> tuple[str, ...]:
-    box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in space.parameters)
+def _notes(problem: Problem, options: FitOptions, repeats: int) -> tuple[str, ...]:
+    box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in problem.space.parameters)
+    bare = " The first one began at the model without its effects as well." if problem.system.effects else ""
     settled = f" Every loop was passed {repeats} times before it was scored." if repeats else ""
     return (
         f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each at most, "
-        f"seed {options.seed}, each finished by a local least-squares polish.{settled}",
+        f"seed {options.seed}, each finished by a local least-squares polish.{bare}{settled}",
         f"Search box: {box}.",
         "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation.",
     )

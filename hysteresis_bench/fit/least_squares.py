@@ -5,7 +5,8 @@ All of it is `kernels.levenberg_marquardt`, whose chains are simulated as one sw
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,6 +21,9 @@ CONVERGED = 1e-6
 
 FOLLOWED, EXACT = 60, 1e-14
 """Iterations of a polish at most, and the relative fall of the RMSE by which it ends."""
+
+OVERLOOKED = 1e-4
+"""Share of its loss by which a search's optimum is worse than another one that it should have found."""
 
 AT_BOUND = 1e-3
 """A parameter within this fraction of its (scaled) box from an edge is said to lie at its bound."""
@@ -51,6 +55,35 @@ def polish(problem: Problem, values: Array) -> Array:
     )
     kept = problem.losses(np.clip(starts, 0.0, 1.0)) <= losses
     return np.where(kept, values.reshape(starts.shape), problem.space.from_unit(points)).reshape(values.shape)
+
+
+def not_overlooked(problem: Problem, values: Array, searched: Callable[[Problem], Array]) -> Array:
+    """The values that a search found, or what begins at the same model without its effects where that is better.
+
+    A global search of many parameters may pass over an effect that is nearly off, or the frequency of a hum. So the
+    effects begin switched off around the model that fits best without them, and at what they propose themselves.
+
+    values and result : (dimension,) in units;  searched : the values (dimension,) that a search finds for a problem
+    """
+    own, middle = {q.name for q in problem.system.model.parameters}, values_of(problem, np.full(values.size, 0.5))
+    off = {q.name: middle[q.name] if q.null is None else q.null for q in problem.space.parameters if q.name not in own}
+    space = Space(tuple(q for q in problem.space.parameters if q.name in own))
+    if not off or not space.parameters:
+        return values
+    bare = replace(problem, system=replace(problem.system, fixed={**problem.system.fixed, **off}), space=space)
+    point = space.to_unit(searched(bare)[:, None])
+    left, known = split(errors(bare, point)[:, 0], problem.records), {**off, **values_of(bare, point[:, 0])}
+    proposed = [
+        {f"{name}.{key}": value for key, value in proposal.items()}
+        for name, effect in problem.system.effects
+        for proposal in effect.starts(problem.records, left)
+    ]
+    starts = np.column_stack([point_of(problem, {**known, **others}) for others in ({}, *proposed)])
+    points, squares = descend(problem, starts)
+    best = int(np.argmin(squares))
+    now = problem.losses(problem.space.to_unit(values[:, None]))[0]
+    better = problem.losses(points[:, [best]])[0] < (1.0 - OVERLOOKED) * now
+    return problem.space.from_unit(points[:, [best]])[:, 0] if better else values
 
 
 def point_of(problem: Problem, values: Mapping[str, float]) -> Array:

@@ -47,6 +47,39 @@ def _delay_evenly(u: Array, steps: Array, v: Array) -> None:
             before[j] = now
 
 
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _delay_unevenly(time: Array, u: Array, duration: Array, v: Array) -> None:
+    """`delay` on any grid. Columns look for the samples between which their own past lies side by side, one sample
+    further at a time; indices that cannot be negative let that be vectorised."""
+    samples, columns = u.shape
+    flat = u.ravel().copy()  # what might overlap with v would not be vectorised
+    begin = np.empty(duration.size, dtype=np.uint64)  # of the stretch between samples in which t - duration lies
+    place = np.empty(duration.size, dtype=np.uint64)  # of what a column has there
+    for j in range(duration.size):
+        begin[j] = 0
+        place[j] = j if columns > 1 else 0
+        v[0, j] = u[0, j if columns > 1 else 0]
+    end, inverse = time[1:].copy(), 1.0 / np.diff(time)
+    end[-1:] = np.inf
+    one, row = np.uint64(1), np.uint64(columns)
+    for i in range(1, samples):
+        moved = one
+        while moved > 0:
+            moved = np.uint64(0)
+            for j in range(duration.size):
+                past = np.uint64(end[begin[j]] <= time[i] - duration[j])
+                begin[j] += past
+                moved += past
+        for j in range(duration.size):
+            k = begin[j]
+            share = max((time[i] - duration[j] - time[k]) * inverse[k], 0.0)
+            before = flat[place[j] + k * row]
+            v[i, j] = before + share * (flat[place[j] + k * row + row] - before)
+    for j in range(duration.size):
+        if duration[j] == 0.0:
+            v[samples - 1, j] = u[samples - 1, j if columns > 1 else 0]
+
+
 @njit(cache=True, error_model="numpy")
 def delay(time: Array, u: Array, duration: Array) -> Array:
     """v(t) = u(t - duration), linear between the samples of u and constant before the first one.
@@ -56,25 +89,10 @@ def delay(time: Array, u: Array, duration: Array) -> Array:
     duration : float64[swarm]                             >= 0, unit of time; 0: v = u to the last bit
     -> float64[samples, swarm]                            v, unit of u
     """
-    samples, columns = u.shape
-    swarm = duration.size
-    v = np.empty((samples, swarm))
+    v = np.empty((time.size, duration.size))
     step = _even_step(time)
     if step > 0.0:
         _delay_evenly(u, duration / step, v)
         return v
-    sample = np.zeros(swarm, dtype=np.int64)  # the last one that is not after t - duration
-    for i in range(samples):
-        for j in range(swarm):
-            column = j if columns > 1 else 0
-            then = time[i] - duration[j]
-            k = sample[j]
-            while k < i and time[k + 1] <= then:
-                k += 1
-            sample[j] = k
-            if k == i or then <= time[0]:
-                v[i, j] = u[k, column]
-            else:
-                share = (then - time[k]) / (time[k + 1] - time[k])
-                v[i, j] = u[k, column] + share * (u[k + 1, column] - u[k, column])
+    _delay_unevenly(time, u, duration, v)
     return v

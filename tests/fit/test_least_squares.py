@@ -6,10 +6,15 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from hysteresis_bench import registry
+from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.cross_validation import advantage
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.fit.least_squares import descend, errors, point_of, split, values_of
+from hysteresis_bench.fit.least_squares import descend, errors, not_overlooked, point_of, polish, split, values_of
+from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.left_out import FOLDS, cut, left_out_errors
+from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import Record
 from tests.diagnosis.generator import make
 
 
@@ -77,3 +82,38 @@ def test_values_and_points_are_inverse():
     problem = problem_of()
     point = np.random.default_rng(2).random(problem.space.dimension)
     assert np.allclose(point_of(problem, values_of(problem, point)), point, atol=1e-12)
+
+
+TRUTH = {"alpha": 0.6, "beta": 1.1, "gamma": 0.4, "d": 1.3}
+
+
+def around(effect, hum=0.0):
+    """The problem of a Bouc-Wen loop with a hum, with one effect around the model, and the model's own true values."""
+    model, time = registry.build("models", "bouc-wen"), np.linspace(0.0, 4.0, 800)
+    own = np.array([TRUTH[q.name] for q in model.parameters])
+    clean = Record(time, 2.0 * np.sin(np.pi * time**1.3), None)
+    output = System(model).respond(clean, own[:, None])[:, 0] + hum * np.cos(2 * np.pi * 23.7 * time)
+    record = replace(clean, output=output + 0.01 * np.random.default_rng(5).standard_normal(time.size))
+    system = System(model, registry.build_effects(model, (effect,)))
+    return Problem(system, (record,), Space(system.box((record,))), LOSSES["rmse"]), own
+
+
+def test_a_frequency_that_a_search_passed_over_is_found():
+    problem, own = around("periodic-disturbance", hum=0.3)
+    wrong = problem.space.from_unit(np.full((problem.space.dimension, 1), 0.5))[:, 0]
+    found = dict(zip(problem.space.names, not_overlooked(problem, wrong, lambda bare: own), strict=True))
+    assert abs(found["periodic-disturbance.frequency"] - 23.7) < 0.01
+    assert abs(np.hypot(found["periodic-disturbance.cosine"], found["periodic-disturbance.sine"]) - 0.3) < 0.01
+
+
+def test_a_fit_with_an_effect_is_no_worse_than_without():
+    problem, own = around("play-bank")
+    wrong = problem.space.from_unit(np.full((problem.space.dimension, 1), 0.5))
+    found = not_overlooked(problem, wrong[:, 0], lambda bare: own)
+    assert problem.losses(problem.space.to_unit(found[:, None]))[0] < 0.011
+
+
+def test_what_a_search_found_stays_where_nothing_is_better():
+    problem, own = around("drift")
+    best = polish(problem, np.append(own, 0.0))
+    assert np.array_equal(not_overlooked(problem, best, lambda bare: own), best)

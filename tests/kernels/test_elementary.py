@@ -1,9 +1,16 @@
-"""The exponential and the logarithm of the kernels against numpy's."""
+"""The elementary functions of the kernels against numpy's."""
 
 import numpy as np
 from numba import njit
 
-from hysteresis_bench.kernels.elementary import exponential, logarithm, logarithm_to_2
+from hysteresis_bench.kernels.elementary import (
+    base_2_logarithm,
+    base_2_logarithm_to_2,
+    cosine_and_sine,
+    exponential,
+    logarithm,
+    power_of_2,
+)
 
 
 @njit(error_model="numpy", fastmath={"contract"})
@@ -39,7 +46,31 @@ def test_the_ends_are_kept():
     assert logarithms[3] == 0.0
 
 
+def test_those_of_base_2():
+    power, general = njit(lambda x: power_of_2(x)), njit(lambda x: base_2_logarithm(x))
+    x = -np.random.default_rng(2).uniform(0.0, 1020.0, 5000)
+    np.testing.assert_allclose([power(value) for value in x], np.exp2(x), rtol=1e-15, atol=0)
+    assert [power(0.0), power(-1.0), power(-1e9)] == [1.0, 0.5, 2.0**-1022]
+    sizes = np.concatenate([np.exp2(x), np.exp2(-x), np.exp2(x / 1020.0)])
+    expected = np.log2(sizes)
+    found = np.array([general(value) for value in sizes])
+    assert np.max(np.abs(found - expected) / np.maximum(np.abs(expected), 1.0)) < 1e-15
+
+
 def test_the_logarithm_to_2_is_the_logarithm():
     x = np.concatenate([1.0 + np.linspace(0.0, 1.0, 10001), 1.0 + 2.0 ** -np.arange(1.0, 53.0)])
-    general, short = njit(lambda x: logarithm(x)), njit(lambda x: logarithm_to_2(x))
+    general, short = njit(lambda x: base_2_logarithm(x)), njit(lambda x: base_2_logarithm_to_2(x))
     assert [short(value) for value in x] == [general(value) for value in x]
+
+
+def test_cosine_and_sine_of_turns():
+    pair = njit(lambda x: cosine_and_sine(x), error_model="numpy")
+    eighth = np.random.default_rng(1).uniform(-0.125, 0.125, 2000)
+    cosine, sine = np.cos(2 * np.pi * eighth), np.sin(2 * np.pi * eighth)
+    for quarters, expected in enumerate([(cosine, sine), (-sine, cosine), (-cosine, -sine), (sine, -cosine)]):
+        for whole in (-3.0, 0.0, 1e3):
+            turns = eighth + (whole + 0.25 * quarters)
+            rounded = 2 * np.pi * np.max(np.abs(turns - (whole + 0.25 * quarters) - eighth))
+            found = np.array([pair(x) for x in turns]).T
+            np.testing.assert_allclose(found, expected, rtol=0, atol=6e-16 + rounded)
+    assert pair(0.0) == (1.0, 0.0)

@@ -7,7 +7,7 @@ import math
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.elementary import exponential, logarithm, logarithm_to_2
+from hysteresis_bench.kernels.elementary import base_2_logarithm, base_2_logarithm_to_2, power_of_2
 
 WHOLE = 8
 """Columns that go side by side; of what is left over, the samples do, or a vector would be left half empty."""
@@ -17,8 +17,8 @@ WHOLE = 8
 def _bent(x, inverse_level, level, sharpness, softness):  # type: ignore[no-untyped-def]
     excess = abs(inverse_level * x)
     # the power of the smaller of excess and 1 / excess, so that it does not overflow
-    power = exponential(-sharpness * abs(logarithm(excess)))
-    folded = exponential(-logarithm_to_2(1.0 + power) * softness)
+    power = power_of_2(-sharpness * abs(base_2_logarithm(excess)))
+    folded = power_of_2(-base_2_logarithm_to_2(1.0 + power) * softness)
     bent = x * folded if excess <= 1.0 else math.copysign(folded, x) * level
     return bent if x == x else x
 

@@ -7,12 +7,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.parameters import Parameter
+
+if TYPE_CHECKING:
+    from hysteresis_bench.kernels.effects.natural_spline import Curves
 
 NARROW = 0.01
 """By which share of itself, or of the data's range, a box is wide of what that range tells."""
@@ -43,9 +46,9 @@ class Spline:
             if k != self.node
         )
 
-    def at(self, x: Array, low: Any, high: Any, p: Any) -> Array:
-        """(samples, swarm);  x : (samples, 1) or (samples, swarm);  low, high : (swarm,), the ends of the range"""
-        from hysteresis_bench.kernels.effects.natural_spline import natural_spline
+    def curves(self, low: Array, high: Array, p: Any) -> Curves:
+        """Of a swarm; low, high : (swarm,), the ends of the range."""
+        from hysteresis_bench.kernels.effects.natural_spline import natural_splines
 
         given = np.zeros((len(self.knots), high.size))
         for k in range(len(self.knots) - self.tied):
@@ -53,12 +56,36 @@ class Spline:
                 given[k] = getattr(p, f"{self.prefix}{k}")
         if self.tied:
             given[-1] = given[0]
-        return natural_spline(x, low, high, knots=self.knots, ordinates=given, held=self.held)
+        return natural_splines(low, high, knots=self.knots, ordinates=given, held=self.held)
 
     def drawn(self, x: Array, low: float, high: float, p: Any) -> Array:
         """(points,), of one set of parameters; x : (points,)"""
         column = type(p)(*(np.array([value]) for value in p))
-        return self.at(x[:, None], np.array([low]), np.array([high]), column)[:, 0]
+        found = np.zeros((x.size, 1))
+        add(found, x[:, None], self.curves(np.array([low]), np.array([high]), column))
+        return found[:, 0]
+
+
+def add(y: Array, x: Array, curves: Curves) -> None:
+    """y + s(x) in place of y, (samples, swarm);  x : (samples, 1) or (samples, swarm), y itself too"""
+    from hysteresis_bench.kernels.effects.natural_spline import add_spline, add_spline_of_own
+
+    if x.shape[1] > 1:
+        add_spline_of_own(y, x, curves)
+    else:
+        add_spline(y, x[:, 0], curves)
+
+
+def scale(y: Array, x: Array, curves: Curves) -> None:
+    """y (1 + s(x)) in place of y; the arguments as in `add`"""
+    from hysteresis_bench.kernels.effects.natural_spline import add_spline_of_own, scale_by_spline
+
+    if x.shape[1] > 1:
+        factor = np.ones_like(y)
+        add_spline_of_own(factor, x, curves)
+        y *= factor
+    else:
+        scale_by_spline(y, x[:, 0], curves)
 
 
 def early(prefix: str) -> Spline:

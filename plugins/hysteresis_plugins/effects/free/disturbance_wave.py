@@ -18,7 +18,6 @@ from hysteresis_plugins.effects.free._spline import POINTS, Spline, narrow
 from hysteresis_plugins.effects.periodic_disturbance import PeriodicDisturbance
 
 KNOTS = tuple(k / 4.0 for k in range(5))
-WAVES = (np.cos, np.sin)
 SWELLS = tuple(Spline(name, KNOTS, None, held=True) for name in ("cosine", "sine"))
 OVERTONES = (2, 3)
 SWELLING = tuple(one for swell in SWELLS for one in swell.parameters("{output}", "amplitude"))
@@ -53,15 +52,14 @@ class DisturbanceWave(FreeForm):
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.wave import add_wave
+
         if not signal.timed:
             return inner(signal)
         output = own(inner(signal), signal)
-        since = (signal.time - signal.time[0])[:, None]
-        phase = 2.0 * np.pi * signal.time[:, None] * p.frequency
-        for wave, swell in zip(WAVES, SWELLS, strict=True):
-            output += swell.at(since, np.zeros_like(p.duration), p.duration, p) * wave(phase)
-            for order in OVERTONES:
-                output += getattr(p, f"{swell.prefix}_of_{order}") * wave(order * phase)
+        cosine, sine = (swell.curves(np.zeros_like(p.duration), p.duration, p) for swell in SWELLS)
+        overtones = np.stack([getattr(p, one.name) for one in CONSTANT])
+        add_wave(output, signal.time, p.frequency, cosine, sine, overtones)
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

@@ -14,7 +14,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects.fatigue import Fatigue, travelled
-from hysteresis_plugins.effects.free._spline import POINTS, early, narrow
+from hysteresis_plugins.effects.free._spline import POINTS, early, narrow, scale
 
 GAIN = early("gain")
 
@@ -40,7 +40,7 @@ class GainWithPath(FreeForm):
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = own(inner(signal), signal)
-        output *= 1.0 + GAIN.at(travelled(signal.input), np.zeros_like(p.longest), p.longest, p)
+        scale(output, travelled(signal.input), GAIN.curves(np.zeros_like(p.longest), p.longest, p))
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

@@ -13,7 +13,7 @@ from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import motionless
-from hysteresis_plugins.effects.free._spline import POINTS, bent, extremes, narrow
+from hysteresis_plugins.effects.free._spline import POINTS, add, bent, extremes, narrow
 
 BEND = bent("bend")
 
@@ -43,7 +43,9 @@ class InputCurve(FreeForm):
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         if not np.any(p[2:]):  # the model sees the very input, still shared by the swarm
             return inner(signal)
-        return inner(signal.with_input(signal.input + BEND.at(signal.input, p.lowest, p.highest, p)))
+        acting = np.repeat(signal.input, p.lowest.size // signal.input.shape[1], axis=1)
+        add(acting, signal.input, BEND.curves(p.lowest, p.highest, p))
+        return inner(signal.with_input(acting))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Bends of up to half the range."""

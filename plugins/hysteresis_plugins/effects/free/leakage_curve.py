@@ -48,17 +48,12 @@ class LeakageCurve(FreeForm):
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.polynomial_current import collect
+
         if not signal.timed:
             return inner(signal)
         output = own(inner(signal), signal)
-        steps = np.diff(signal.time)[:, None]
-        z = signal.input / p.largest
-        collected, powers, last = np.zeros_like(z[1:]), np.ones_like(z[1:]), np.ones_like(z[1:])
-        for k in ORDERS:  # the mean of z^k over a straight line is the sum of z_0^(k - j) z_1^j, over k + 1
-            last = last * z[1:]
-            powers = powers * z[:-1] + last
-            collected += getattr(p, f"current{k}") / (k + 1.0) * powers
-        output[1:] += np.cumsum(collected * steps, axis=0)
+        collect(output, signal.time, signal.input, p.largest, np.stack([getattr(p, f"current{k}") for k in ORDERS]))
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

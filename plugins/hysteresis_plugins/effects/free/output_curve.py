@@ -14,7 +14,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import output_span
-from hysteresis_plugins.effects.free._spline import POINTS, bent, extremes, narrow
+from hysteresis_plugins.effects.free._spline import POINTS, add, bent, extremes, narrow
 
 BEND = bent("bend")
 WIDER = 0.1
@@ -44,7 +44,7 @@ class OutputCurve(FreeForm):
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = own(inner(signal), signal)
-        output += BEND.at(output, p.lowest, p.highest, p)
+        add(output, output, BEND.curves(p.lowest, p.highest, p))
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

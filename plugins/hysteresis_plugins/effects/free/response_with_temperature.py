@@ -14,7 +14,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import output_span
-from hysteresis_plugins.effects.free._spline import POINTS, Spline, extremes, narrow
+from hysteresis_plugins.effects.free._spline import POINTS, Spline, add, extremes, narrow, scale
 from hysteresis_plugins.effects.temperature_sensitivity import TemperatureSensitivity
 
 KNOTS = tuple(k / 6.0 for k in range(7))
@@ -50,8 +50,8 @@ class ResponseWithTemperature(FreeForm):
             raise ValueError("response-with-temperature needs a column temperature; these data have none")
         output = own(inner(signal), signal)
         temperature = signal.columns["temperature"][:, None]
-        output *= 1.0 + GAIN.at(temperature, p.lowest, p.highest, p)
-        output += ZERO.at(temperature, p.lowest, p.highest, p)
+        scale(output, temperature, GAIN.curves(p.lowest, p.highest, p))
+        add(output, temperature, ZERO.curves(p.lowest, p.highest, p))
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:

@@ -14,7 +14,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import longest, output_span, without_time
-from hysteresis_plugins.effects.free._spline import POINTS, early, narrow
+from hysteresis_plugins.effects.free._spline import POINTS, add, early, narrow
 
 ZERO = early("zero")
 ORDINATES = ZERO.parameters("{output}", "change of the output's zero")
@@ -44,7 +44,8 @@ class ZeroWithTime(FreeForm):
         if not signal.timed:
             return inner(signal)
         output = own(inner(signal), signal)
-        output += ZERO.at((signal.time - signal.time[0])[:, None], np.zeros_like(p.duration), p.duration, p)
+        since = signal.time - signal.time[0]
+        add(output, since[:, None], ZERO.curves(np.zeros_like(p.duration), p.duration, p))
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
