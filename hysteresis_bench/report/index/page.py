@@ -151,6 +151,8 @@ def _claims_section(claims: pd.DataFrame) -> Iterator[Section]:
         rows.append([row["claim"], row["problem"], verdict, interval, probability(row["p"]), equivalent, where])
     header = ["Claim", "Problem", "Here", "A12 (95 %)", "p", "Equivalent", "In"]
     note = "A12 is how often the one said to be better is better on the same specimen, ties half. p is corrected after "
-    note += "Holm over the claims of a problem. “Equivalent” is the probability that both are within 1\u202f% of each other."
+    note += (
+        "Holm over the claims of a problem. Equivalent: the probability that both are within 1\u202f% of each other."
+    )
     heading = "The papers’ claims over instances"
     yield Section("claims", heading, [Table("Every claim on every problem", header, rows, note)])
