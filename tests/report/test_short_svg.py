@@ -43,7 +43,7 @@ def test_a_long_line_keeps_every_point_and_loses_its_letters():
         ("M 0 0 \nL -0.5 -10 \nL 0 0 \nz\n", "M0 0l-.5-10 .5 10z"),
         ("M 5 5 \nL 5.01 5.01 \n", "M5 5l0 0"),
         ("M 0 0 \nL 1 1 \nM 10 10 \nL 11 11 \n", "M0 0l1 1M10 10l1 1"),
-        ("M 0 1.5 \nC 0.397805 1.5 0.77937 1.341951 1 1 \nz\n", "M 0 1.5 C 0.397805 1.5 0.77937 1.341951 1 1 z"),
+        ("M 0 1.5 \nC 0.397805 1.5 0.77937 1.341951 1 1 \nz\n", "M 0 1.5 C 0.40 1.5 0.78 1.34 1 1 z"),
         ("M 1e-7 3 \nL 2 3 \n", "M0 3l2 0"),
     ],
 )
@@ -56,9 +56,15 @@ def test_marks_of_one_style_say_it_once():
         f'     <use xlink:href="#m" x="{x}.123" y="7.96" style="fill: {colour}"/>' for x, colour in enumerate("aab")
     ]
     found = shortened("<g>\n" + "\n".join(marks) + "\n</g>")
-    assert found.count('style="fill: a"') == 1
-    assert '<g style="fill: a">\n<use xlink:href="#m" x=".1" y="8"/>' in found
+    assert found.count('style="fill:a"') == 1
+    assert '<g style="fill:a">\n<use xlink:href="#m" x=".1" y="8"/>' in found
     assert found.count("<use") == 3
+
+
+def test_names_that_nothing_refers_to_are_left_out_and_places_are_short():
+    text = '<text x="138.046875" transform="translate(-1.2345 7)">1.2345</text></g>'
+    wanted = '<text x="138.05" transform="translate(-1.23 7)">1.2345</text></g>'
+    assert shortened(f'<g id="a"><g id="b" clip-path="url(#p)"/>{text}') == f'<g><g clip-path="url(#p)"/>{wanted}'
 
 
 def test_a_figure_is_drawn_from_it(tmp_path):

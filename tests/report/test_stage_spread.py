@@ -78,6 +78,7 @@ def test_the_tuned_constants_stand_beside_the_printed_ones():
     one = tuned_table(SPEC, tuned.query("instance == 1 and trial == 0"), Published())
     assert rows(one)["rho"] == ["1"]
     assert tuned_table(SPEC, table, published) is None
+    assert tuned_table(SPEC.model_copy(update={"control": []}), tuned, published) is None
 
 
 def test_one_trial_has_no_spread():

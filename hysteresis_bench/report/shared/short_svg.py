@@ -13,14 +13,23 @@ UNITS = 10
 PATH = re.compile(r' d="(M[^"]*)"')
 POLYGON = re.compile(r"[MLz]|-?[0-9.]+(?:e-?[0-9]+)?")
 USE = re.compile(r'<use ([^>]*?) ?style="([^"]*)"/>')
+GROUP = re.compile(r'<g id="[^"]*"')
+"""Names that nothing refers to: what is referred to is a path, a mark or a clip."""
+LONG = re.compile(r'(?<=[ "(-])([0-9]+\.[0-9]{3,})(?=[ ")])')
+BARE = re.compile(r"<g>\n((?:(?!</?g[ >]).)*?)</g>\n?", flags=re.S)
+STYLE = re.compile(r'style="([^"]*)"')
 PLACE = re.compile(r'\b(x|y)="(-?[0-9.]+)"')
 
 
 def shortened(svg: str) -> str:
     """An SVG of matplotlib's, drawn alike."""
     svg = PATH.sub(lambda found: f' d="{_path(found[1])}"', svg)
+    svg = re.sub(r"\n +", "\n", GROUP.sub("<g", svg))
+    while (flat := BARE.sub(r"\1", svg)) != svg:
+        svg = flat
     svg = "\n".join(text for style, lines in groupby(svg.split("\n"), _style) for text in _alike(style, list(lines)))
-    return re.sub(r"\n +", "\n", svg)
+    svg = STYLE.sub(lambda found: f'style="{re.sub("(?<=[:;]) ", "", found[1])}"', svg)
+    return LONG.sub(lambda found: f"{float(found[1]):.2f}", svg)
 
 
 def _path(text: str) -> str:

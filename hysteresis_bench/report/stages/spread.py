@@ -48,7 +48,7 @@ def spread_tables(spec: StageSpec, staged: pd.DataFrame, published: Published, u
 
 def tuned_table(spec: StageSpec, staged: pd.DataFrame, published: Published) -> Table | None:
     """The constants of the sliding mode beside the printed ones; None where no trial has any. staged : as above"""
-    if not set(TUNED.values()) & set(staged.columns):
+    if not spec.control or not set(TUNED.values()) & set(staged.columns):
         return None
     printed = _constants([table.columns for table in published.tables.values()])
     theirs = {label: printed for label in spec.control[:1] if printed}
