@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
@@ -55,7 +56,7 @@ class Answered(HTMLParser):
         if tag == "title":
             self.title = self._text.strip()
         if tag == "p" and self._plain and "answer" in self._inside:
-            self.answer.append(" ".join(self._text.split()))
+            self.answer.append(re.sub("[ \n]+", " ", self._text).strip())  # narrow spaces stay
         if tag == "p" and not self.kicker:  # the first one of a page
             self.kicker = self._text.strip()
         if tag == "section" and self._inside:
