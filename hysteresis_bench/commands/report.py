@@ -17,8 +17,12 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 @click.option(
     "--ioh", type=click.Path(path_type=Path, file_okay=False), help="Also write the searches for IOHprofiler."
 )
+@click.option("--trial", metavar="SEED", help="Run one trial again, by its seed in trials.csv, and write its page.")
+@click.option(
+    "--keep", type=click.Path(path_type=Path, file_okay=False), help="Copy what is small to this folder, and report it."
+)
 @json_option
-def report(results: Path, open_it: bool, ioh: Path | None, as_json: bool) -> None:
+def report(results: Path, open_it: bool, ioh: Path | None, trial: str | None, keep: Path | None, as_json: bool) -> None:
     """Write the report of a results folder again, or the index of a folder of such folders."""
     from hysteresis_bench.diagnosis_study.results import STUDY
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
@@ -26,7 +30,13 @@ def report(results: Path, open_it: bool, ioh: Path | None, as_json: bool) -> Non
     from hysteresis_bench.report.index.page import is_index, write_index
     from hysteresis_bench.report.study import write_report
 
-    if is_index(results):
+    if keep:
+        results = _kept(results, keep)
+    if trial is not None:
+        from hysteresis_bench.report.trial.page import write_trial_page
+
+        page = write_trial_page(results, trial)
+    elif is_index(results):
         page = write_index(results)
     else:
         page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
@@ -43,6 +53,16 @@ def report(results: Path, open_it: bool, ioh: Path | None, as_json: bool) -> Non
             say_path(plain_console(), "searches", ioh)
     if open_it:
         click.launch(str(page))
+
+
+def _kept(results: Path, folder: Path) -> Path:
+    """The folder that what is small was copied to."""
+    from hysteresis_bench.report.paper.published import check_published
+    from hysteresis_bench.study.afterwards.keep import keep_small
+    from hysteresis_bench.study.results import read_results
+
+    read = read_results(results)
+    return keep_small(read, folder, check_published(read.published).optimizers)
 
 
 def summary_of(results: Path) -> list[dict[str, Any]]:

@@ -90,14 +90,15 @@ def compare(
             key = {"reference": reference.name, "controller": label}
             floors = {"noise_floor": rig.noise_floor, "delay_floor": reference.delay_floor}
             scores.append(key | run.scores() | floors | {"unit": fitted.units["output"]})
-            responses.append(_shown(run).assign(**key))
+            responses.append(course(run).assign(**key))
     table = pd.DataFrame(scores)
     conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
     warnings = (*bench.told, *_warnings(table, bench.forward, fitted))
     return Comparison(table, pd.concat(responses), bench.tuning, fitted.units, conditions, NOTES, warnings)
 
 
-def _shown(run: Run) -> pd.DataFrame:
+def course(run: Run) -> pd.DataFrame:
+    """time, wanted, displacement, voltage, error, where it is scored, thinned to SHOWN samples."""
     scored = slice(run.reference.history, None, max(1, run.error.size // SHOWN))
     wanted, reached = run.reference.position[scored], run.displacement[scored]
     columns = {"time": run.reference.time[scored], "wanted": wanted, "displacement": reached}

@@ -46,6 +46,12 @@ class Reference:
         return float(np.sqrt(np.mean(np.square(late))))
 
 
+def static_reference(amplitude: float, rate: float) -> Reference:
+    """What the PEA paper's Figure 14 follows without a sensor: 0.5 Hz, the second of two periods scored."""
+    time = np.arange(round(4.0 * rate)) / rate
+    return Reference("sine-0.5-hz", time, amplitude * np.sin(np.pi * time), round(2.0 * rate))
+
+
 def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]:
     """The six signals; amplitude in the output's unit, rate in samples a second."""
 

@@ -40,10 +40,14 @@ def read_table(path: Path) -> pd.DataFrame:
 
 
 def write_table(path: Path, table: pd.DataFrame, *, digits: int | None = None, index: bool = False) -> None:
-    """Write a table beside and rename it, its texts guarded; digits : significant ones of a number, all by default."""
+    """Write a table beside and rename it, its texts guarded, compressed where the name ends in .xz.
+
+    digits : significant ones of a number, all by default
+    """
     safe = _with_texts(table.reset_index() if index else table, guarded)
     beside = path.with_name(f"{path.name}.part")
-    safe.to_csv(beside, index=False, float_format=None if digits is None else f"%.{digits}g")
+    compression = "xz" if path.suffix == ".xz" else None
+    safe.to_csv(beside, index=False, float_format=None if digits is None else f"%.{digits}g", compression=compression)
     beside.replace(path)  # a stop in between leaves no half a table
 
 

@@ -23,6 +23,9 @@ ENOUGH = 14
 LEVEL = 0.05
 """Level of significance, after Holm's correction."""
 
+EXACT = 200
+"""Blocks up to which the signed-rank test counts all signs."""
+
 
 def differences(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> Array:
     """ours - theirs of paired values, (blocks,) each, all finite.
@@ -39,11 +42,30 @@ def differences(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> Array:
 
 
 def wilcoxon(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
-    """[2] Two-sided signed-rank p of paired values, (blocks,) each; zero differences after Pratt."""
+    """[2] Two-sided signed-rank p of paired values, (blocks,) each; zero differences after Pratt.
+
+    From all signs that the differences might have had: where most are 0, a normal distribution is far off (it would
+    call equal optimizers different in 12 % of studies where 4 of 20 instances differ). Beyond EXACT blocks it is close.
+    """
     from scipy import stats
 
     found = differences(ours, theirs, tie)
-    return float(stats.wilcoxon(found, zero_method="pratt").pvalue) if np.any(found) else 1.0
+    if not np.any(found):
+        return 1.0
+    if found.size > EXACT:
+        return float(stats.wilcoxon(found, zero_method="pratt", method="asymptotic").pvalue)
+    doubled = np.rint(2.0 * stats.rankdata(np.abs(found))).astype(int)  # ties have half ranks
+    return _two_sided(doubled[found != 0.0], int(doubled[found > 0.0].sum()))
+
+
+def _two_sided(ranks: Array, positive: int) -> float:
+    """p of a sum of positive ranks, where each has either sign equally often; ranks : (differences,) whole numbers"""
+    chance = np.zeros(int(ranks.sum()) + 1)  # of every sum, one rank after the other
+    chance[0] = 1.0
+    for rank in ranks:
+        chance[rank:] += chance[: chance.size - rank]
+        chance *= 0.5
+    return float(min(1.0, 2.0 * min(chance[: positive + 1].sum(), chance[positive:].sum())))
 
 
 def holm(p: Sequence[float]) -> list[float]:

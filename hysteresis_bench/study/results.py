@@ -13,6 +13,7 @@ import pandas as pd
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
+from hysteresis_bench.study.kept_files.courses import COURSES, read_courses
 from hysteresis_bench.study.kept_files.json_forms import check_provenance
 from hysteresis_bench.study.kept_files.reader import Reader
 from hysteresis_bench.study.kept_files.trial_rows import FINISHED as FINISHED
@@ -39,7 +40,8 @@ class Results:
     provenance : versions, machine, and for every optimizer label its plugin, settings, summary and
         evaluations_per_iteration (an integer or null)
     trials : one row a trial with the columns of trials.csv, ordered by problem, optimizer, instance, trial
-    traces : (problem, optimizer, instance, trial) -> best-so-far trace, of trials that have a result
+    traces : (problem, optimizer, instance, trial) -> best-so-far trace, of trials that have a result; where they are
+        kept in courses.csv.xz, losses with seven digits, and the points of a few trials only
     responses : problem, optimizer, record, role (fitted or held-out), time, input, output, simulated; of the first
         instance, for the best trial of every optimizer on every problem, and for what was staged (problem: its name)
     identifiability : a problem's names, units, values, standard_errors, rank, sentences and profiles at the best
@@ -66,6 +68,11 @@ class Results:
     staged: pd.DataFrame = field(default_factory=pd.DataFrame)
 
     @property
+    def kept_small(self) -> bool:
+        """Whether this is what is left of a study without trials.sqlite: its tables, as they are kept in git."""
+        return not (self.folder / FILE).is_file()
+
+    @property
     def mixed(self) -> tuple[str, ...]:
         """A sentence for each thing in which trials differ that should not: package versions, processors."""
         return mixed(self.origins)
@@ -82,7 +89,8 @@ class Results:
 def read_results(folder: Path) -> Results:
     """What can be read of a results folder; what cannot is named in `damages`.
 
-    Where trials.sqlite is not kept, the trials come from trials.csv, without their traces.
+    Where trials.sqlite is not kept, the trials come from trials.csv, and their traces from courses.csv.xz, or from
+    nowhere.
     Raises UserError where the folder holds no study.
     """
     if not (folder / STUDY).is_file():
@@ -126,7 +134,17 @@ def _trials(
     if trials.empty:
         return pd.DataFrame(columns=list(COLUMNS)), {}, {}
     trials = with_instances(trials)
+    return trials.assign(reason=trials["reason"].astype(object).fillna("").astype(str)), _courses(reader), {}
+
+
+def _courses(reader: Reader) -> Mapping[Trial, Trace]:
+    """As they are kept beside trials.csv; none where they are not."""
+    if (reader.folder / COURSES).is_file():
+        try:
+            return read_courses(reader.folder / COURSES)
+        except DAMAGED as error:
+            reader.said(COURSES, error)
     reader.damages.append(
         f"The course of the searches is not kept here ({FILE}): trials are told from {TRIALS}, without convergence."
     )
-    return trials.assign(reason=trials["reason"].astype(object).fillna("").astype(str)), {}, {}
+    return {}

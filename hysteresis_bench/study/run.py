@@ -8,14 +8,12 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import pandas as pd
-
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError, told
 from hysteresis_bench.kernels.resources import economical
-from hysteresis_bench.study.afterwards.best_fits import identifiability, responses
+from hysteresis_bench.study.afterwards.best_fits import identifiability
+from hysteresis_bench.study.afterwards.once_more import write_responses
 from hysteresis_bench.study.afterwards.staged_trials import run_staged_trials
-from hysteresis_bench.study.afterwards.stages import run_stages
 from hysteresis_bench.study.execution.cluster import Cluster
 from hysteresis_bench.study.execution.pool import MACHINE, Pool, Work
 from hysteresis_bench.study.execution.shards import Shard
@@ -31,7 +29,7 @@ from hysteresis_bench.study.kept_files.trial_rows import FIRST, as_kept
 from hysteresis_bench.study.lock import alone, write_whole
 from hysteresis_bench.study.problems import build_problem, closing_dataset
 from hysteresis_bench.study.provenance import describe
-from hysteresis_bench.study.results import IDENTIFIABILITY, RESPONSES, STAGED_COLUMNS, STAGED_TRIALS, STAGES, TRIALS
+from hysteresis_bench.study.results import IDENTIFIABILITY, STAGED_COLUMNS, STAGED_TRIALS, STAGES, TRIALS
 from hysteresis_bench.study.store import DAMAGED, FILE, Outcome, Store
 from hysteresis_bench.study.study_file import Study, read_study
 
@@ -123,11 +121,9 @@ def run_study(
         rows = run_staged_trials(study, table, built, folder=path.parent, kept=kept)
         write_table(folder / STAGED_TRIALS, rows, digits=7)
     table = table[table["instance"] == FIRST]  # what follows the trials is told of the rig as it stands
-    staged, staged_responses = run_stages(study, table, built, folder=path.parent)
+    staged = write_responses(folder, study, table, built, data=path.parent)
     if study.stage:
         write_table(folder / STAGES, staged)
-    parts = [responses(table, built), staged_responses]
-    write_table(folder / RESPONSES, pd.concat(parts), digits=7)
     determined = json.dumps(identifiability(study, table, built, traces=traces), indent=1, allow_nan=False)
     write_whole(folder / IDENTIFIABILITY, determined + "\n")
     return folder

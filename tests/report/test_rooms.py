@@ -12,6 +12,7 @@ ROOMS = [
     "trials",
     "paper",
     "searches",
+    "trial",
     "stages",
     "laws",
     "diagnosis",

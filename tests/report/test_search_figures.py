@@ -44,6 +44,15 @@ def test_the_grid_is_of_good_trials_on_the_first_instance_and_of_what_they_searc
     assert not re.search(r"#(?!ffffff|000000)[0-9a-f]{6}", drawn.inline.replace("&#", ""))
 
 
+def test_trials_that_ended_alike_have_no_grid(tmp_path):
+    here = problem({"pso": 1.0, "new": 1.0}, instances=2, trials=6, noise=0.0)
+    for rows in here.rows.values():
+        for name in ("parameter.a", "parameter.b"):
+            rows[name] = 5.0 + 1e-3 * np.arange(len(rows))
+    assert len(good_trials(here).columns) == 3
+    assert final_parameters(tmp_path, "grid", here, looks={}) is None
+
+
 @pytest.mark.parametrize("trials", [1, 6])
 def test_few_trials_or_one_parameter_have_no_grid(tmp_path, trials):
     here = problem({"pso": 1.0, "new": 1.0}, instances=2, trials=trials, noise=0.0)

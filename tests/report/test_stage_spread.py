@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 
 from hysteresis_bench.report.paper.published import Published, check_published
-from hysteresis_bench.report.stages.spread import spread_tables
+from hysteresis_bench.report.stages.spread import spread_tables, tuned_table
+from hysteresis_bench.study.afterwards.staged_trials import TUNED
 from hysteresis_bench.study.study_file import StageSpec
 
 SPEC = StageSpec(
@@ -61,6 +62,23 @@ def test_a_section_that_cannot_be_used_counts_as_the_worst(share):
     table.loc[table["instance"] <= 5 * share, ["check_rmse", "check_rmse.slow"]] = np.nan
     _, check, _ = spread_tables(SPEC, table, Published(), "um")
     assert rows(check)["slow"][0].startswith("failed" if share > 0.5 else "0.05")
+
+
+def test_the_tuned_constants_stand_beside_the_printed_ones():
+    columns = {"parameter": ["C", "epsilon", "rho", "d"], "value": [0.3, 0.6, 0.5, 1.0]}
+    published = check_published({"tables": {"table_5": {"title": "5", "columns": columns}}})
+    table = staged()
+    tuned = table.assign(**{name: table["instance"] for name in TUNED.values()})
+    found = tuned_table(SPEC, tuned, published)
+    assert found.header == ["Quantity", "gpmix, published", "gpmix, ours"]
+    assert rows(found) == {
+        name: [value, "2 (1.5 to 2.5)"]
+        for name, value in zip(("C", "epsilon", "rho"), ("0.3", "0.6", "0.5"), strict=True)
+    }
+    one = tuned_table(SPEC, tuned.query("instance == 1 and trial == 0"), Published())
+    assert rows(one)["rho"] == ["1"]
+    assert tuned_table(SPEC, table, published) is None
+    assert tuned_table(SPEC.model_copy(update={"control": []}), tuned, published) is None
 
 
 def test_one_trial_has_no_spread():

@@ -8,10 +8,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from hysteresis_bench.control.bench import SLIDING
+from hysteresis_bench.control.bench import FEED_FORWARD, SLIDING
 from hysteresis_bench.report.paper.claims import HOLDS, NOT_STAGED, UNDECIDED, judge, sentences
 from hysteresis_bench.report.paper.published import check_published
-from hysteresis_bench.report.stages.figures import loop_figures, stage_figures
+from hysteresis_bench.report.shared.text import number
+from hysteresis_bench.report.stages.figures import feed_forward_figure, loop_figures, stage_figures
 from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.afterwards import staged_trials, stages
 from hysteresis_bench.study.problems import build_problem
@@ -79,6 +80,9 @@ def test_every_trial_has_a_row_of_its_own_actuator(first):
         np.testing.assert_allclose(first[name], parts.mean(axis=1))
     of_references = [name for name in first if name.startswith(f"tracking_rmse.{SLIDING}.")]
     assert len(of_references) == 6
+    assert list(staged_trials.TUNED.values()) == ["tuned.C", "tuned.epsilon", "tuned.rho"]
+    np.testing.assert_allclose(first["tuned.C"], 2.0 * first["tuned.rho"])  # as tune_sliding_mode shares the slope
+    assert (first["tuned.epsilon"] > 0).all()
     np.testing.assert_allclose(first[f"tracking_rmse.{SLIDING}"], first[of_references].mean(axis=1))
 
 
@@ -119,6 +123,15 @@ def test_the_courses_of_the_best_trials_loops_are_kept_and_drawn(tmp_path, monke
     assert len(loop_figures(tmp_path, 1, responses, units=units)) == 6
     fits, _ = stage_figures(tmp_path, 1, responses, units=units)
     assert len(fits) == 2  # of the check alone
+    alone = responses[responses["role"] == f"{stages.CONTROL}{FEED_FORWARD}"]
+    assert set(alone["record"]) == {"sine-0.5-hz"}
+    turns = alone["output"].to_numpy()
+    assert np.ptp(turns) == pytest.approx(4.0, abs=1e-3)
+    line, loop = (np.polyfit(alone[x], alone["simulated"], 1, full=True)[1][0] for x in ("output", "input"))
+    assert line < 0.05 * loop  # in series with its inverse the actuator is nearly a straight line
+    drawn = feed_forward_figure(tmp_path, 1, responses, units=units)
+    assert f"pso {number((alone['simulated'] - alone['output']).abs().max(), 3)}" in drawn.caption
+    assert feed_forward_figure(tmp_path, 1, loops, units=units) is None
 
 
 @pytest.mark.parametrize("run", [True, False])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from html.parser import HTMLParser
@@ -24,6 +25,7 @@ SEVERAL = " instances"
 """What is judged over many of these holds beyond one."""
 SHOWN = 2
 """Paragraphs of an answer; the others are folded away."""
+VERDICTS = (HOLDS, EQUIVALENT, FAILS, UNDECIDED)
 TONES = {HOLDS: "good", FAILS: "bad"}
 
 
@@ -54,7 +56,7 @@ class Answered(HTMLParser):
         if tag == "title":
             self.title = self._text.strip()
         if tag == "p" and self._plain and "answer" in self._inside:
-            self.answer.append(" ".join(self._text.split()))
+            self.answer.append(re.sub("[ \n]+", " ", self._text).strip())  # narrow spaces stay
         if tag == "p" and not self.kicker:  # the first one of a page
             self.kicker = self._text.strip()
         if tag == "section" and self._inside:
@@ -76,9 +78,10 @@ def write_index(folder: Path) -> Path:
         raise UserError(str(folder), f"holds no results: no folder in it has a {REPORT}.")
     found = {path.parent.name: _read(path) for path in pages}
     claims = _claims([path.parent for path in pages])
-    sections = [*_claims_section(claims), *(_section(name, read) for name, read in found.items())]
+    sections = [_section(name, read) for name, read in found.items()]
     rest = [each for each in sorted(folder.iterdir()) if each.is_dir() and each.name not in found]
     sections += [_tables_only(each) for each in rest if any(each.glob("*.csv"))]
+    sections += _claims_section(claims)
     answer = list(_on_claims(claims))
     page = Page("What was found, report by report", "hysteresis-bench results", sections, answer, contents=True)
     return page.write(folder / INDEX)
@@ -100,29 +103,32 @@ def _section(name: str, read: Answered) -> Section:
 def _tables_only(folder: Path) -> Section:
     names = [f"{folder.name}/{file.name}" for file in sorted(folder.glob("*.csv"))]
     links = Markup(", ").join(Markup('<a href="{0}">{0}</a>').format(name) for name in names)
-    return Section(folder.name, folder.name, [Markup("Tables without a page: {}.").format(links)])
+    heading = folder.name.replace("-", " ").replace("_", " ").capitalize()
+    return Section(folder.name, heading, [Markup("Tables without a page: {}.").format(links)])
 
 
 def _claims(folders: Sequence[Path]) -> pd.DataFrame:
-    """The papers' claims, those first that are judged over instances; without ablations and what was not judged."""
+    """The papers' claims that are judged over instances, those first that hold; without ablations."""
     tables = [read_table(path).assign(folder=path.parent.name) for each in folders if (path := each / CLAIMS).is_file()]
     if not tables:
         return pd.DataFrame()
-    every = pd.concat(tables)
-    return every[~every["ablation"].astype(bool) & every["over"].str.endswith(SEVERAL)]
+    every = pd.concat(tables, ignore_index=True)
+    judged = every[~every["ablation"].astype(bool) & every["over"].str.endswith(SEVERAL)]
+    place = {verdict: place for place, verdict in enumerate(VERDICTS)}
+    return judged.sort_values("verdict", key=lambda column: column.map(place), kind="stable")
 
 
 def _on_claims(claims: pd.DataFrame) -> Iterator[str]:
     if claims.empty:
         return
     counts = claims["verdict"].value_counts()
-    ordered = [verdict for verdict in (HOLDS, EQUIVALENT, FAILS, UNDECIDED) if verdict in counts]
+    ordered = [verdict for verdict in VERDICTS if verdict in counts]
     told = [f"{counts[verdict]} {_many(verdict, counts[verdict])}" for verdict in ordered]
     over = listed(list(dict.fromkeys(claims["over"])))
     yield f"Of {len(claims)} judgements on the papers’ claims, each over {over} of the device: {listed(told)}."
     held = claims[claims["verdict"] == HOLDS]
     if not held.empty:
-        names = [f"{claim} (“{problem}”)" for claim, problem in zip(held["claim"], held["problem"], strict=True)]
+        names = [f"“{claim}” (on {problem})" for claim, problem in zip(held["claim"], held["problem"], strict=True)]
         yield f"What holds: {listed(names, len(names))}."
 
 
@@ -130,7 +136,8 @@ def _many(verdict: str, count: int) -> str:
     """A verdict on so many."""
     if verdict not in (HOLDS, FAILS, EQUIVALENT):
         return "cannot be told"
-    return verdict if count == 1 else {HOLDS: "hold", FAILS: "do not hold", EQUIVALENT: "make no difference"}[verdict]
+    many = {HOLDS: "hold", FAILS: "do not hold", EQUIVALENT: "make no difference in practice"}
+    return verdict if count == 1 else many[verdict]
 
 
 def _claims_section(claims: pd.DataFrame) -> Iterator[Section]:
@@ -141,9 +148,12 @@ def _claims_section(claims: pd.DataFrame) -> Iterator[Section]:
         interval = f"{share(row['a12'])} ({share(row['a12_low'])} to {share(row['a12_high'])})"
         equivalent = share(row["probability_equivalent"]) if pd.notna(row["probability_equivalent"]) else NONE
         verdict = Cell(row["verdict"], TONES.get(row["verdict"], "quiet"), strong=True)
-        rows.append([row["claim"], row["problem"], verdict, interval, probability(row["p"]), equivalent, row["folder"]])
+        where = Cell(row["folder"], link=f"{row['folder']}/{REPORT}")
+        rows.append([row["claim"], row["problem"], verdict, interval, probability(row["p"]), equivalent, where])
     header = ["Claim", "Problem", "Here", "A12 (95 %)", "p", "Equivalent", "In"]
-    note = "A12 is how often the one said to be better is better on the same specimen; p after Holm’s correction over "
-    note += "the claims of a problem; the probability that both are within 1\u202f% of each other."
+    note = "A12 is how often the one said to be better is better on the same specimen, ties half. p is corrected after "
+    note += (
+        "Holm over the claims of a problem. Equivalent: the probability that both are within 1\u202f% of each other."
+    )
     heading = "The papers’ claims over instances"
     yield Section("claims", heading, [Table("Every claim on every problem", header, rows, note)])

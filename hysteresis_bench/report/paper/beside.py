@@ -28,7 +28,8 @@ def section(published: Published, results: Results, problems: list[Problem]) -> 
 def of_a_stage(table: Printed, results: Results) -> bool:
     """Does a printed table stand beside what followed a static problem, and so not among the others?"""
     fitted = any(set(spec.fit) <= set(table.columns) for spec in results.study.stage)
-    tracked = "reference" in table.columns and any(spec.control for spec in results.study.stage)
+    controlled = any(spec.control for spec in results.study.stage)
+    tracked = controlled and ("reference" in table.columns or "rho" in table.columns.get("parameter", []))
     return fitted or tracked or (bool(results.study.stage) and "record" in table.columns)
 
 

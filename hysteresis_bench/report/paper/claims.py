@@ -149,7 +149,7 @@ def in_words(judged: Sequence[Judged]) -> str:
     claims, problems = (
         len(set(names)) for names in zip(*((each.claim.says, each.problem) for each in papers), strict=True)
     )
-    holding = [f"{found.claim.says} (“{found.problem}”)" for found in papers if found.verdict == HOLDS]
+    holding = [f"“{found.claim.says}” (on {found.problem})" for found in papers if found.verdict == HOLDS]
     rest = [told for verdict in (EQUIVALENT, FAILS, UNDECIDED) if (told := _rest(papers, verdict))]
     count = f"{len(papers)} judgement{'s' * (len(papers) != 1)}"
     if not holding:

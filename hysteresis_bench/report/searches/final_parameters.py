@@ -26,10 +26,10 @@ PREFIX = "parameter."
 
 def final_parameters(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Look]) -> Picture | None:
     """A grid of every two parameters over the trials of the first instance within 1 % of the best known; None where
-    there are fewer than ENOUGH, or one parameter."""
+    there are fewer than ENOUGH, or one parameter, or all of them ended alike."""
     ended = good_trials(problem)
     names = [column for column in ended if column.startswith(PREFIX)][:MOST]
-    if len(ended) < ENOUGH or len(names) < 2:
+    if len(ended) < ENOUGH or len(names) < 2 or _all_alike(ended[names]):
         return None
     count, ended = len(ended), ended.iloc[np.unique(np.linspace(0, len(ended) - 1, DOTS).round().astype(int))]
     who = ended["optimizer"].where(ended["optimizer"].isin(list(looks)), OTHERS)
@@ -78,6 +78,11 @@ def good_trials(problem: Problem) -> pd.DataFrame:
     values = good[searched].astype(float).loc[:, lambda each: each.nunique() > 1]
     best = rows.loc[int(np.argmin(fitness)), values.columns].astype(float)
     return good[["optimizer"]].join(values / best.where(best != 0.0, 1.0)).reset_index(drop=True)
+
+
+def _all_alike(values: pd.DataFrame) -> bool:
+    """Whether every parameter is the same within what an axis shows."""
+    return bool(((values.min() > 0.99) & (values.max() < 1.01)).all())
 
 
 def _limits(values: pd.Series) -> tuple[float, float]:

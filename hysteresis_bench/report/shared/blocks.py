@@ -21,11 +21,14 @@ class Cell:
     """A table cell; `strong` where it is the one to look at.
 
     tone : classes of the style sheet: good, bad, quiet; code, prose (wide), line (never broken)
+    link : where its text leads, such as #ANCHOR;  anchor : of its row, unique in the page
     """
 
     text: str
     tone: str = ""
     strong: bool = False
+    link: str = ""
+    anchor: str = ""
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ class Page:
     answer : the first sentences;  answers : what they answer, for who cannot see the page
     warnings : before anything else is believed, under the heading `warned`
     contents : does a list of the sections lead the page?
+    files_kept : are its figures kept beside it, so that it links to them?
     """
 
     title: str
@@ -41,6 +42,7 @@ class Page:
     warnings: Sequence[str] = ()
     warned: str = "Warnings"
     contents: bool = False
+    files_kept: bool = True
 
     def write(self, path: Path) -> Path:
         """Write the page with its style and figures inside; every text is escaped, links and figures excepted.

@@ -16,15 +16,22 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.shared.text import Units, named
 from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, legend, picture
 
+DRIVE = "voltage"
+"""A column of what the drive was told, where the input itself is measured."""
+
 Parts = Mapping[str, tuple[pd.DataFrame, str]]
 """Who simulated -> the rows of one record, and a colour."""
 
 
 def drive(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> Picture:
-    """Input and measured output of one record over time."""
+    """Input and measured output of one record over time; above them the drive, where it is another signal."""
+    driven = DRIVE in rows and bool(rows[DRIVE].notna().all())
 
     def draw(figure: Any) -> None:
-        upper, lower = figure.subplots(2, 1, sharex=True)
+        *first, upper, lower = figure.subplots(2 + driven, 1, sharex=True)
+        for above in first:
+            above.step(rows["time"], rows[DRIVE], where="post", color=MUTED, linewidth=1.0)
+            above.set_ylabel(named("Drive", units, DRIVE))
         upper.plot(rows["time"], rows["input"], color=SERIES[4], linewidth=1.2)
         lower.plot(rows["time"], rows["output"], color=INK, linewidth=1.2)
         upper.set_ylabel(named("Input", units, "input"))
@@ -32,7 +39,8 @@ def drive(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption:
         lower.set_xlabel(named("Time", units, "time"))
         figure.align_ylabels()
 
-    return picture(folder, name, (4.2, 3.2), alt=f"Input and output over time. {caption}", caption=caption, draw=draw)
+    size = (4.2, 4.2 if driven else 3.2)
+    return picture(folder, name, size, alt=f"Input and output over time. {caption}", caption=caption, draw=draw)
 
 
 def loop(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:

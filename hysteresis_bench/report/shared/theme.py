@@ -88,6 +88,7 @@ def picture(
     from matplotlib.figure import Figure
 
     from hysteresis_bench.report.shared.log_labels import in_plain_powers
+    from hysteresis_bench.report.shared.short_svg import shortened
 
     name = re.sub(r"[^A-Za-z0-9-]+", "-", name).strip("-")
     with matplotlib.rc_context({**STYLE, "svg.hashsalt": name}):
@@ -101,7 +102,7 @@ def picture(
         figure.set_layout_engine("none")
         text = io.StringIO()
         canvas.print_svg(text, metadata={"Date": None, "Creator": None})  # type: ignore[no-untyped-call]
-    svg = re.sub(r"\s*<metadata>.*?</metadata>", "", text.getvalue(), flags=re.S)
+    svg = shortened(re.sub(r"\s*<metadata>.*?</metadata>", "", text.getvalue(), flags=re.S))
     (folder / "figures").mkdir(exist_ok=True)
     (folder / "figures" / f"{name}.svg").write_text(svg, encoding="utf-8")
     return Picture(name, alt, caption, inline(svg, name, alt))

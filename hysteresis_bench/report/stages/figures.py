@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from hysteresis_bench.control.bench import FEED_FORWARD
 from hysteresis_bench.report.shared.signal_figures import Parts, loop
-from hysteresis_bench.report.shared.text import Units, named
+from hysteresis_bench.report.shared.text import Units, named, number
 from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, legend, picture
 from hysteresis_bench.study.afterwards.stages import CONTROL
 
@@ -22,7 +23,8 @@ def loop_figures(folder: Path, number: int, responses: pd.DataFrame, *, units: U
     if responses.empty:
         return []
     loops = responses[responses["role"].str.startswith(CONTROL)]
-    loops = loops[loops["role"].isin(loops["role"].unique()[:1])]
+    closed = [role for role in loops["role"].unique() if role != f"{CONTROL}{FEED_FORWARD}"]
+    loops = loops[loops["role"].isin(closed[:1])]
     found = []
     for j, ((role, record), rows) in enumerate(loops.groupby(["role", "record"], sort=False), 1):
         parts = {
@@ -33,6 +35,37 @@ def loop_figures(folder: Path, number: int, responses: pd.DataFrame, *, units: U
         caption += "reference below."
         found.append(_fit(folder, f"stage-{number}-control-{j}", parts, units, caption, truth="reference"))
     return found
+
+
+def feed_forward_figure(folder: Path, place: int, responses: pd.DataFrame, *, units: Units) -> Picture | None:
+    """The inverse alone along a slow sine: what it asks for, how the actuator answers that, and both in series; None
+    without. place : of the stage, in the name of the figure;  responses : of the stage"""
+    alone = responses if responses.empty else responses[responses["role"] == f"{CONTROL}{FEED_FORWARD}"]
+    if alone.empty:
+        return None
+    voltage, wanted = named("Input", units, "input"), named("Reference", units, "output")
+    reached = named("Output", units, "output")
+    panels = [("output", "input", wanted, voltage), ("input", "simulated", voltage, reached)]
+    panels.append(("output", "simulated", wanted, reached))
+
+    def draw(figure: Any) -> None:
+        for axes, (x, y, below, beside) in zip(figure.subplots(1, 3), panels, strict=True):
+            for (label, rows), colour in zip(alone.groupby("optimizer", sort=False), SERIES, strict=False):
+                axes.plot(rows[x], rows[y], color=colour, linewidth=1.1, label=label)
+            axes.set(xlabel=below, ylabel=beside)
+        legend(figure.axes[0], 3)
+
+    errors = (alone["simulated"] - alone["output"]).abs().groupby(alone["optimizer"], sort=False).max()
+    told = ", ".join(f"{label} {number(error, 3)}" for label, error in errors.items())
+    caption = (
+        "As the paper’s Figure 14: the inverse of the Bouc-Wen section alone, along 0.5 Hz. Left: the voltage that "
+    )
+    caption += (
+        "it asks for; middle: the actuator’s loop under this voltage; right: both in series, near a straight line"
+    )
+    caption += f". Largest {named('error', units, 'output')}: {told}."
+    name = f"stage-{place}-feed-forward"
+    return picture(folder, name, (7.4, 2.7), alt=f"Feed-forward alone. {caption}", caption=caption, draw=draw)
 
 
 def stage_figures(

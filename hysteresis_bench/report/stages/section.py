@@ -16,9 +16,9 @@ from hysteresis_bench.report.shared.blocks import Block, Details, Figures, Headi
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import percent
 from hysteresis_bench.report.shared.theme import Picture
-from hysteresis_bench.report.stages.figures import loop_figures, stage_figures
+from hysteresis_bench.report.stages.figures import feed_forward_figure, loop_figures, stage_figures
 from hysteresis_bench.report.stages.rows import mean_error
-from hysteresis_bench.report.stages.spread import spread_tables
+from hysteresis_bench.report.stages.spread import spread_tables, tuned_table
 from hysteresis_bench.report.stages.tables import check, linear_section, tracking, ways
 from hysteresis_bench.study.afterwards.stages import LARGEST, RMSE, STAGED
 from hysteresis_bench.study.results import Results
@@ -27,7 +27,11 @@ from hysteresis_bench.study.study_file import StageSpec
 
 @dataclass(frozen=True)
 class StageView:
-    """One stage as the page shows it. spread : over all trials;  tables : of the best trials, on the first instance"""
+    """One stage as the page shows it.
+
+    spread : over all trials;  tables : of the best trials, on the first instance
+    alone : the feed-forward without feedback
+    """
 
     name: str
     sentences: list[str]
@@ -35,6 +39,7 @@ class StageView:
     tables: list[Table]
     fits: list[Picture]
     loops: list[Picture]
+    alone: Picture | None
     controlled: list[Picture]
 
 
@@ -46,8 +51,10 @@ def section(results: Results, published: Published, folder: Path) -> Section | N
         if view.spread:
             best = [*view.spread, Details("The best trial of each, on the first instance", view.tables)]
         blocks += [Heading(view.name), *view.sentences, *best, Figures(view.fits), Figures(view.loops, "small")]
+        if view.alone:
+            blocks.append(Figures([view.alone], "large"))
         if view.controlled:
-            blocks.append(Details("Closed loops on the rig, as the paper's Figure 15", [Figures(view.controlled)]))
+            blocks.append(Details("Closed loops on the rig, as the paper’s Figure 15", [Figures(view.controlled)]))
     return Section("stages", "The linear section, and the whole model", blocks) if blocks else None
 
 
@@ -76,7 +83,10 @@ def _view(i: int, spec: StageSpec, results: Results, published: Published, folde
     controlled = loop_figures(folder, i, mine, units=units)
     staged = results.staged if results.staged.empty else results.staged[results.staged["stage"] == spec.name]
     spread = spread_tables(spec, staged, published if spec.check else Published(), unit)
-    return StageView(spec.name, list(_sentences(spec, rows, checked)), spread, tables, fits, loops, controlled)
+    constants = tuned_table(spec, staged, published)
+    (spread or tables).extend([constants] if constants else [])
+    alone = feed_forward_figure(folder, i, mine, units=units)
+    return StageView(spec.name, list(_sentences(spec, rows, checked)), spread, tables, fits, loops, alone, controlled)
 
 
 def _sentences(spec: StageSpec, rows: pd.DataFrame, checked: list[Printed]) -> Iterator[str]:

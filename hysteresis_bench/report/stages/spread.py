@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.shared.blocks import Cell, Table
 from hysteresis_bench.report.shared.text import NONE, named, number
+from hysteresis_bench.study.afterwards.staged_trials import TUNED
 from hysteresis_bench.study.study_file import StageSpec
 
 CHECKS = {"error": ("check_error", "F_error, eq. (12)"), "rmse": ("check_rmse", "F_rmse, eq. (13)")}
@@ -45,6 +46,16 @@ def spread_tables(spec: StageSpec, staged: pd.DataFrame, published: Published, u
     return [table for table in tables if table.rows]
 
 
+def tuned_table(spec: StageSpec, staged: pd.DataFrame, published: Published) -> Table | None:
+    """The constants of the sliding mode beside the printed ones; None where no trial has any. staged : as above"""
+    if not spec.control or not set(TUNED.values()) & set(staged.columns):
+        return None
+    printed = _constants([table.columns for table in published.tables.values()])
+    theirs = {label: printed for label in spec.control[:1] if printed}
+    title = f"{spec.name}: constants of the sliding mode (15), tuned on the model that each trial found"
+    return _table(title, staged, spec.control, list(TUNED.values()), theirs)
+
+
 Printed = Mapping[str, Mapping[str, float]]
 """By optimizer and row."""
 
@@ -62,14 +73,15 @@ def _table(title: str, staged: pd.DataFrame, labels: Sequence[str], names: Seque
             row.append(_spread(_blocks(staged[staged["optimizer"] == label], name)))
         rows.append(row)
     instances, trials = staged["instance"].nunique(), len(staged[staged["optimizer"] == labels[0]])
-    over = f"{instances} instances, {trials} trials" if instances > 1 else f"{trials} trials"
-    return Table(f"{title}, over {over}", header, rows, "Median (lower to upper quartile), instances by their medians.")
+    over = f"{instances} instances, {trials} trials" if instances > 1 else f"{trials} trial{'s' * (trials != 1)}"
+    note = "Median (lower to upper quartile), instances by their medians." if trials > 1 else ""
+    return Table(f"{title}, over {over}", header, rows, note)
 
 
 def _last(name: str) -> str:
     """Of `check_rmse.sine-10-hz` the signal; a mean is called so."""
     metric, _, rest = name.partition(".")
-    known = {metric for metric, _ in (*CHECKS.values(), *LOOPS.values())}
+    known = {"tuned", *(metric for metric, _ in (*CHECKS.values(), *LOOPS.values()))}
     if metric not in known:
         return name
     signal = rest.partition(".")[2] if metric.startswith("tracking") else rest
@@ -88,8 +100,19 @@ def _spread(blocks: Array) -> str:
     if blocks.size == 0:
         return NONE
     shares = {0.25: 3, 0.5: 4, 0.75: 3}
+    if blocks.size == 1:
+        return number(blocks[0])
     low, middle, high = (number(statistics.quantile(blocks, share), digits) for share, digits in shares.items())
     return f"{middle} ({low} to {high})"
+
+
+def _constants(printed: Sequence[Mapping[str, Sequence[float | str]]]) -> dict[str, float]:
+    """Of (15), from a printed table of parameters and values; empty without one."""
+    for columns in printed:
+        if {"parameter", "value"} <= set(columns) and "rho" in columns["parameter"]:
+            pairs = zip(columns["parameter"], columns["value"], strict=True)
+            return {f"tuned.{name}": float(value) for name, value in pairs}
+    return {}
 
 
 def _by_optimizer(columns: Mapping[str, Sequence[float | str]]) -> Printed:

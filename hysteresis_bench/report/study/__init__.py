@@ -11,7 +11,8 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.trials.summary import other_budgets, summarise
 from hysteresis_bench.study.afterwards.closing_files import CLOSING
-from hysteresis_bench.study.results import REPORT, SUMMARY, TRIALS, read_results
+from hysteresis_bench.study.afterwards.once_more import responses_once_more
+from hysteresis_bench.study.results import REPORT, RESPONSES, SUMMARY, TRIALS, read_results
 from hysteresis_bench.study.store import FILE
 
 __all__ = ["summarise", "write_report"]
@@ -25,20 +26,24 @@ def write_report(folder: Path) -> Path:
     """Write summary.csv, claims.csv, tables.tex, figures/*.svg, report.html and closing/diagnosis.html into a results
     folder; returns the page.
 
-    The same results give the same files. Where trials.sqlite is not kept, a page and tables that are there have
-    more than can be written again: they stay, and the page is `report-from-tables.html`.
+    The same results give the same files. Where the responses of the best fits are not kept, they are computed once
+    more. Where the course of the searches is not kept, a page and tables that are there have more than can be written
+    again: they stay, and the page is `report-from-tables.html`.
     Raises UserError where the folder holds no study or no trials, or its published file has faults.
     """
     from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
     from hysteresis_bench.report.study.page import CONTENT, study_page, write_tables
 
     results = read_results(folder)
+    if results.kept_small and not (folder / RESPONSES).is_file() and responses_once_more(results):
+        results = read_results(folder)
     if results.trials.empty:
         none = f"holds no trials: neither {FILE} nor {TRIALS} has any. Run the study again."
         raise UserError(str(folder), [*results.damages, none])
     richer = not results.traces and (folder / REPORT).is_file()
     closing = results.closing
-    if closing and closing.finished and not closing.responses.empty and not richer:
+    drawn = results.kept_small and closing and closing.page
+    if closing and closing.finished and not closing.responses.empty and not (richer or drawn):
         with suppress(*CONTENT):  # the section on it tells what is damaged
             write_diagnosis_page(folder / CLOSING)
     summary = summarise(results)

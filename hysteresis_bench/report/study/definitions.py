@@ -10,7 +10,8 @@ from hysteresis_bench.report.shared.blocks import Terms
 from hysteresis_bench.report.shared.page import Section, files_beside
 from hysteresis_bench.report.trials.best_known import EXACT
 from hysteresis_bench.report.trials.latex import TABLES
-from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS
+from hysteresis_bench.study.kept_files.courses import COURSES
+from hysteresis_bench.study.results import PROVENANCE, PUBLISHED, RESPONSES, STUDY, SUMMARY, TRIALS, Results
 
 SUCCESS = "A success is a trial whose fitness is within 1 % of the best known to the study on its instance."
 DEFINITIONS = (
@@ -64,6 +65,7 @@ DEFINITIONS = (
 FILES = {
     STUDY: "the study as it was run",
     TRIALS: "one row a trial",
+    COURSES: "how every search went: counts of evaluations, each the steps since the last, and the best so far",
     CLAIMS: "the verdicts on the paper’s claims",
     TABLES: "the main tables for a paper, LaTeX",
     SUMMARY: "one row an optimizer and problem: every number of the tables",
@@ -73,8 +75,11 @@ FILES = {
 }
 
 
-def section(folder: Path) -> Section:
-    """folder : of the results, whose files are linked."""
-    beside = files_beside({name: what for name, what in FILES.items() if (folder / name).is_file()})
+def section(folder: Path, results: Results) -> Section:
+    """folder : of the results, whose files are linked, as far as they are kept."""
+    there = {name: what for name, what in FILES.items() if (folder / name).is_file()}
+    if results.kept_small:  # computed for this page
+        there.pop(RESPONSES, None)
+    beside = files_beside(there)
     heading = "Definitions, and where every number comes from"
     return Section("definitions", heading, [Terms(DEFINITIONS), beside])

@@ -23,6 +23,7 @@ from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.study.definitions import SUCCESS
 from hysteresis_bench.report.study.words import winners
 from hysteresis_bench.report.trials.problem import Problem
+from hysteresis_bench.report.trials.seeds import anchor
 from hysteresis_bench.report.trials.summary import at_iterations, other_budgets, problems, summarise
 from hysteresis_bench.study.results import Results
 
@@ -70,7 +71,8 @@ def table(problem: Problem, summary: pd.DataFrame) -> Table:
     here = summary[summary["problem"] == problem.name]
     columns: dict[str, list[str | Cell]] = {
         "Optimizer": [
-            Cell(label, strong=label in (problem.winner, problem.reference)) for label in map(str, here["optimizer"])
+            Cell(label, strong=label in (problem.winner, problem.reference), link=f"#{anchor(problem, label)}")
+            for label in map(str, here["optimizer"])
         ],
         "Fitness, median": [number(value) for value in here["fitness_median"]],
         "Relative RMS": [_relative_rms(row) for _, row in here.iterrows()],

@@ -28,7 +28,7 @@ from hysteresis_bench.report.study import (
     signals,
     words,
 )
-from hysteresis_bench.report.trials import instances, targets
+from hysteresis_bench.report.trials import instances, seeds, targets
 from hysteresis_bench.report.trials.latex import write_latex
 from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.results import Results
@@ -42,6 +42,7 @@ FOLDED = {
     "signals",
     "held-out",
     "claims",
+    seeds.ANCHOR,
     "instances",
     "run",
     "audit",
@@ -93,11 +94,12 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
         lambda: determined.section(results, folder),
         lambda: closing_section.section(results, folder),
         lambda: claims.section(judged),
+        lambda: seeds.section(everybody, folder.name),
         lambda: instances.section(results),
         lambda: run.section(results, here),
         lambda: audit.section(audit.audit(published)),
         lambda: decisions.section(published, results.study.notes),
-        lambda: definitions.section(folder),
+        lambda: definitions.section(folder, results),
     ]
     sections, damages = whole(parts)
     return Page(
@@ -108,6 +110,7 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
         warnings=[*results.damages, *damages],
         warned="What is not here",
         contents=True,
+        files_kept=not results.kept_small,
     )
 
 

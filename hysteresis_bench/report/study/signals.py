@@ -10,7 +10,7 @@ import pandas as pd
 from hysteresis_bench.report.searches.looks import Look
 from hysteresis_bench.report.shared.blocks import Block, Figures, Heading
 from hysteresis_bench.report.shared.page import Section
-from hysteresis_bench.report.shared.signal_figures import drive, errors, loop, measured_loops
+from hysteresis_bench.report.shared.signal_figures import DRIVE, drive, errors, loop, measured_loops
 from hysteresis_bench.report.shared.text import Units
 from hysteresis_bench.report.shared.theme import INK, Picture
 from hysteresis_bench.report.trials.problem import Problem
@@ -66,7 +66,7 @@ def _drives(
     mine = rows[rows["optimizer"] == rows["optimizer"].iloc[0]] if len(rows) else rows
     new = False
     for j, ((record, role), part) in enumerate(mine.groupby(["record", "role"], sort=False), 1):
-        one = part[["time", "input", "output"]].reset_index(drop=True)
+        one = part[[name for name in ("time", "input", "output", DRIVE) if name in part]].reset_index(drop=True)
         if not any(one.equals(other) for other in drawn):
             drawn.append(one)
             new = True

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.study.kept_files.trial_rows import KEY
 from hysteresis_bench.study.results import Results
 
 VERSION = "0.3.18"
@@ -37,20 +38,21 @@ def write_ioh(results: Results, folder: Path) -> list[Path]:
 
 def _write(results: Results, folder: Path, number: int, keys: list[tuple[str, str, int, int]]) -> Path:
     problem, label = keys[0][:2]
-    spent = results.trials.set_index(["problem", "optimizer", "instance", "trial"])["evaluations"]
+    rows = results.trials.set_index(list(KEY)).loc[keys]
+    found = rows.filter(like="parameter.").dropna(axis="columns").astype(float)
     name = f"IOHprofiler_f{number}_{re.sub('[^A-Za-z0-9]+', '_', problem)}"
-    dimension = results.traces[keys[0]].points.shape[1]
+    dimension = found.shape[1]
     place = Path(re.sub("[^A-Za-z0-9]+", "_", label)) / f"data_f{number}"
     table = place / f"{name}_DIM{dimension}.dat"
     (folder / place).mkdir(parents=True, exist_ok=True)
     lines, runs = [" ".join(COLUMNS)], []
     for key in keys:
-        trace, evaluations = results.traces[key], int(spent[key])
+        trace, evaluations = results.traces[key], int(rows.loc[key, "evaluations"])
         improved = np.concatenate([[True], np.diff(np.minimum.accumulate(trace.losses)) < 0.0])
         pairs = zip(trace.evaluations[improved], trace.losses[improved], strict=True)
         lines += [f"{count} {loss:.10e}" for count, loss in pairs]
         best = {"evals": int(trace.evaluations[improved][-1]), "y": float(trace.losses[improved][-1])}
-        point = {"x": [float(value) for value in trace.points[improved][-1]]}
+        point = {"x": [float(value) for value in found.loc[key]]}
         runs.append({"instance": key[2], "evals": evaluations, "best": best | point})
     (folder / table).write_text("\n".join(lines) + "\n", encoding="utf-8")
     content: dict[str, Any] = {

@@ -21,6 +21,8 @@ from hysteresis_bench.study.study_file import Study
 
 PROFILE_POINTS = 13
 RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
+DRIVE = "voltage"
+"""A column of records in which the input is measured, too: what the drive was told."""
 
 
 def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
@@ -29,7 +31,10 @@ def responses(trials: pd.DataFrame, built: Mapping[str, Built]) -> pd.DataFrame:
     for problem, optimizer, values in _best(trials, built, by_optimizer=True):
         system, dataset = built[problem].problem.system, built[problem].dataset
         table = response_table(dataset, {"simulated": simulated(system, dataset.records, values)})
-        parts.append(table.assign(problem=problem, optimizer=optimizer)[list(RESPONSE_COLUMNS)])
+        table = table.assign(problem=problem, optimizer=optimizer)[list(RESPONSE_COLUMNS)]
+        if all(DRIVE in record.columns for record in dataset.records):
+            table[DRIVE] = np.concatenate([record.columns[DRIVE][record.scored] for record in dataset.records])
+        parts.append(table)
     return pd.concat(parts) if parts else pd.DataFrame()
 
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench.control.bench import bench_of
+from hysteresis_bench.control.bench import SLIDING, bench_of
 from hysteresis_bench.control.comparison import AMPLITUDE, RATE, stepped_rig
 from hysteresis_bench.control.references import published_references
 from hysteresis_bench.study.afterwards.stages import (
@@ -38,13 +38,15 @@ CHECK = {LARGEST: "check_error", RMSE: "check_rmse"}
 """Means over the check's records; with a record's name behind it, of that record."""
 TRACKING = {"t_error": "tracking_error", "t_rmse": "tracking_rmse"}
 """With a controller behind it the mean over the references, with a reference behind that, of this one."""
+TUNED = {"convergence": "tuned.C", "epsilon": "tuned.epsilon", "rho": "tuned.rho"}
+"""The constants of (15), as the PEA paper's Table 5 calls them; tuned on what the trial found."""
 
 
 def run_staged_trials(
     study: Study, trials: pd.DataFrame, built: Mapping[str, Built], *, folder: Path, kept: pd.DataFrame
 ) -> pd.DataFrame:
-    """One row a stage, optimizer, instance and trial: STAGED_COLUMNS, then the section by the model's names, CHECK and
-    TRACKING; an absent number is NaN.
+    """One row a stage, optimizer, instance and trial: STAGED_COLUMNS, then the section by the model's names, CHECK,
+    TUNED and TRACKING; an absent number is NaN.
 
     folder : where relative data files are looked for
     kept : such a table of an earlier run; `made_of` says whether a row of it is of the same stage and parameters
@@ -103,7 +105,9 @@ def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built, *, insta
     rig = stepped_rig(after.rig, {**after.rig_settings, **drawn_constants(after, study.seed, instance)})
     bench = bench_of(model_of(stage, whole, data), rig, after.rig, rate=RATE, amplitude=AMPLITUDE)
     references = published_references(AMPLITUDE, RATE)
-    found: dict[str, float] = {}
+    found: dict[str, float] = {
+        name: value for key, value in bench.tuning.get(SLIDING, {}).items() if (name := TUNED.get(key))
+    }
     for controller in stage.controllers:
         scores = {each.name: bench.run(controller, each, study.seed + instance - FIRST).scores() for each in references}
         for score, name in TRACKING.items():

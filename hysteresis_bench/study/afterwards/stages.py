@@ -12,8 +12,9 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.control.bench import PRINTED
-from hysteresis_bench.control.comparison import compare, stepped_rig
+from hysteresis_bench.control.bench import FEED_FORWARD, PRINTED, bench_of
+from hysteresis_bench.control.comparison import AMPLITUDE, RATE, compare, course, stepped_rig
+from hysteresis_bench.control.references import static_reference
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.parameters import Space
@@ -132,13 +133,16 @@ def section_behind(stage: StageSpec, label: str, found: Mapping[str, float], sta
 
 
 def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> tuple[list[dict[str, Any]], pd.DataFrame]:
-    """Every controller along every reference, on the rig, and the courses of the stage's, or of the paper's; a row with
-    the fault where the model allows none."""
+    """Every controller along every reference, on the rig, and the courses of the stage's, or of the paper's, and of the
+    feed-forward alone along a slow sine; a row with the fault where the model allows none."""
     after = next(spec for spec in study.problem if spec.name == stage.after)
     assert after.rig is not None
     try:
         rig = stepped_rig(after.rig, after.rig_settings)
-        found = compare(model_of(stage, whole, data), rig, after.rig, seed=study.seed)
+        model = model_of(stage, whole, data)
+        found = compare(model, rig, after.rig, seed=study.seed)
+        static = static_reference(AMPLITUDE, RATE)
+        alone = bench_of(model, rig, after.rig, rate=RATE, amplitude=AMPLITUDE).run(FEED_FORWARD, static, study.seed)
     except ValueError as fault:
         row = _row(TRACKING["t_rmse"], "every reference", None, data.dataset.units["output"])
         return [row | {"fault": str(fault)}], pd.DataFrame()
@@ -147,7 +151,8 @@ def _tracked(stage: StageSpec, study: Study, whole: Whole, data: Built) -> tuple
         for score in found.scores.to_dict("records")
         for key, quantity in TRACKING.items()
     ]
-    courses = found.responses[found.responses["controller"].isin(stage.controllers or [PRINTED])]
+    closed = found.responses[found.responses["controller"].isin(stage.controllers or [PRINTED])]
+    courses = pd.concat([closed, course(alone).assign(reference=static.name, controller=FEED_FORWARD)])
     names = {"reference": "record", "voltage": "input", "wanted": "output", "displacement": "simulated"}
     named = courses.rename(columns=names).assign(problem=stage.name, optimizer=whole.optimizer)
     return rows, named.assign(role=CONTROL + named["controller"])[list(RESPONSE_COLUMNS)]

@@ -1,0 +1,1 @@
+"""The page of one trial, which is run once more for it."""
