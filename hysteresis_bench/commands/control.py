@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hysteresis_bench.commands.outputs import check_file, check_folder, force_option
+from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
@@ -45,9 +45,7 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
-@click.option(
-    "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw the --reference, or the --sweep, here."
-)
+@plot_option
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
@@ -74,13 +72,11 @@ def control(
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.report.control.page import print_control, write_control
-    from hysteresis_bench.report.shared.papers import check_figure
 
-    if plot is not None:
-        if (reference is None) == (not sweep):
-            raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
-        check_file(plot, [model, *([reference] if reference else [])], force)
-        check_figure(plot)
+    inputs = [model, *([reference] if reference else [])]
+    if plot is not None and (reference is None) == (not sweep):
+        raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
+    check_plot(plot, inputs, force)
     if as_json and sum(map(bool, (rig, reference, sweep))) > 1:
         raise UserError("control", "--json tells a --reference, a --sweep or a --rig, and one of them alone.")
     if rig is None and reference is None and not sweep:
@@ -91,7 +87,7 @@ def control(
         )
     fitted = read_model(model)
     folder = out or Path(f"{model.stem}-control")
-    check_folder(folder, FILES, FILES[0], [model, *([reference] if reference else [])], force)
+    check_folder(folder, FILES, FILES[0], inputs, force)
     if reference is not None:
         try:
             _follow(fitted, reference, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)

@@ -41,7 +41,7 @@ def told(*arguments, code=0):
 def test_predict_draws_and_tells_the_error(here):
     said = told("predict", "model.json", "loop.csv", "--out", "p.csv", "--plot", "p.svg")
     assert "RMSE" in said
-    assert "predicted minus measured" in (here / "p.svg").read_text(encoding="utf-8")
+    assert "Predicted minus measured" in (here / "p.svg").read_text(encoding="utf-8")
     assert "Output (" in (here / "p.svg").read_text(encoding="utf-8")
 
 
@@ -53,6 +53,15 @@ def test_control_draws_tracking(here):
     assert (here / "t.pdf").read_bytes().startswith(b"%PDF")
     assert "--plot draws what --reference or --sweep makes" in told(
         "control", "model.json", "--rig", "pea", "--plot", "x.png", code=2
+    )
+
+
+@pytest.mark.parametrize("command", ["check", "fit", "diagnose", "compare", "predict"])
+def test_another_kind_of_figure_is_refused_before_the_work(here, command):
+    model = {"predict": ("model.json",)}.get(command, ())
+    made = {"fit": ("--model", "polynomial"), "predict": ("--out", "p.csv")}.get(command, ())
+    assert "x.jpg: a figure is one of .pdf, .svg, .png." in told(
+        command, *model, "loop.csv", *made, "--plot", "x.jpg", code=2
     )
 
 

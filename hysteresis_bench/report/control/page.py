@@ -69,7 +69,9 @@ def print_control(comparison: Comparison, console: Console) -> None:
     errors = scores.pivot(index="controller", columns="reference", values="t_rmse")
     references = list(dict.fromkeys(scores["reference"]))
     unit = scores["unit"].iloc[0]
-    table = Terminal(title=f"T_rmse [{unit}]", title_justify="left", box=None, title_style="bold", pad_edge=False)
+    table = Terminal(
+        title=escape(f"T_rmse [{unit}]"), title_justify="left", box=None, title_style="bold", pad_edge=False
+    )
     table.add_column("controller", no_wrap=True)
     for reference in references:
         table.add_column(reference.replace("-", " "), justify="right")
