@@ -72,6 +72,7 @@ def control(
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.report.control.page import print_control, write_control
+    from hysteresis_bench.report.fit.folder import MODEL
 
     inputs = [model, *([reference] if reference else [])]
     if plot is not None and (reference is None) == (not sweep):
@@ -104,7 +105,8 @@ def control(
             steps_told("control") as on_step,
         ):
             comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed, on_step=on_step)
-        page = write_control(folder, comparison, f"{fitted.model} ({model.stem})")
+        called = model.resolve().parent.name if model.name == MODEL else model.stem
+        page = write_control(folder, comparison, f"{fitted.model} ({called})")
         if as_json:
             scores = comparison.scores.to_dict("records")
             say_json({"scores": scores, "tuning": comparison.tuning, "warnings": comparison.warnings, "page": page})

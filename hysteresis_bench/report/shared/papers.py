@@ -104,7 +104,8 @@ def _draw_followed(path: Path, parts: Sequence[Part], units: Units, word: str, h
             strip.sharey(strips[0])
             _label(strip, units, "", "output", "error")
         if strips:
-            strips[0].set_title(f"{word.capitalize()} minus measured{'' if half is None else ', and the interval'}")
+            minus = f"{word.capitalize()} minus measured"
+            strips[0].set_title(minus if half is None else "Error, and the interval (dashed)")
             _label(strips[-1], units, "time", "output", "error")
         figure.align_ylabels()
 
@@ -138,17 +139,17 @@ def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
         axes = figure.subplots()
         for place, (amplitude, rows) in enumerate(table.dropna(subset="expected").groupby("amplitude")):
             colour, share = SERIES[place % len(SERIES)], 100.0 / rows["amplitude"]
-            unit = "" if units["output"] == "1" else f" {units['output']}"
-            label = f"amplitude {amplitude:.3g}{unit}"
-            axes.plot(rows["frequency"], share * rows["expected"], color=colour, marker="o", markersize=3, label=label)
+            errors, label = share * rows["expected"], f"{amplitude:.3g}"
+            axes.plot(rows["frequency"], errors, color=colour, marker="o", markersize=3, label=label)
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter("{x:g}")
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel(f"Frequency (1/{units['time']})")
-        axes.set_ylabel("Expected RMS error (% of amplitude)")
-        legend(axes)
+        axes.set_ylabel("Expected RMS error\n(% of amplitude)")
+        title = named("Amplitude", units, "output")
+        figure.legend(loc="outside upper left", ncols=4, handlelength=1.4, title=title, alignment="left")
 
-    save_figure(path, 2.8, draw)
+    save_figure(path, 2.9, draw)
 
 
 def _label(axes: Any, units: Units, x: str, y: str, said: str = "") -> None:
@@ -165,7 +166,9 @@ def save_figure(path: Path, height: float, draw: Callable[[Any], None]) -> None:
     from hysteresis_bench.report.shared.log_labels import in_plain_powers
 
     metadata = {".pdf": {"CreationDate": None}, ".svg": {"Date": None}}.get(path.suffix.lower(), {})
-    with matplotlib.rc_context({**STYLE, "svg.hashsalt": path.stem, "figure.facecolor": "white"}):
+    own = {"axes.formatter.use_mathtext": True, "svg.hashsalt": path.stem, "figure.facecolor": "white"}
+    own = {"svg.hashsalt": path.stem, "figure.facecolor": "white", "axes.formatter.use_mathtext": True}
+    with matplotlib.rc_context(STYLE | own):
         figure = Figure(figsize=(COLUMN, height))
         draw(figure)
         in_plain_powers(figure)
