@@ -45,6 +45,13 @@ def test_predict_draws_and_tells_the_error(here):
     assert "Output (" in (here / "p.svg").read_text(encoding="utf-8")
 
 
+def test_predict_draws_what_was_not_measured(here):
+    table = pd.read_csv("loop.csv")
+    table.drop(columns="output [um]").to_csv("drive.csv", index=False)
+    told("predict", "model.json", "drive.csv", "--out", "p.csv", "--plot", "p.svg")
+    assert "Predicted" in (here / "p.svg").read_text(encoding="utf-8")
+
+
 def test_control_draws_tracking(here):
     said = told("control", "model.json", "--reference", "loop.csv", "--out", "c")
     assert "figure: c/tracking.svg" in said

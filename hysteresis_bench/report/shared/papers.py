@@ -88,7 +88,8 @@ def _draw_followed(path: Path, parts: Sequence[Part], units: Units, word: str, h
     strip_height = STRIP if len(known) < 3 else 0.7 * STRIP
 
     def draw(figure: Any) -> None:
-        loop, *strips = figure.subplots(1 + len(known), 1, height_ratios=[LOOP, *[strip_height] * len(known)])
+        heights = [LOOP, *[strip_height] * len(known)]
+        loop, *strips = figure.subplots(len(heights), 1, squeeze=False, height_ratios=heights)[:, 0]
         for part, colour in zip(shown, SERIES, strict=False):
             if part.measured is not None:
                 loop.plot(part.input, part.measured, color=MUTED, linewidth=2.2, alpha=0.5)
