@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.options import reference_options
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
@@ -17,12 +19,15 @@ if TYPE_CHECKING:
     import pandas as pd
     from rich.console import Console
 
+    from hysteresis_bench.control.trajectories.trajectory import Followed
+    from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.fit.model_file import FittedModel
 
 existing_file = click.Path(path_type=Path)
 FEED_FORWARD, TRACKING, SWEEP, SWEPT = "feed-forward.csv", "tracking.svg", "sweep.csv", "sweep.svg"
 FILES = ("control.html", "control.csv", "responses.csv")
 AMPLITUDE_HELP = "Of the references; default: 2. Of a --sweep; default: four shares of the fitted range."
+RATE_HELP = "Samples a second on the rig, default: 10000; or of a --reference that has no column of time."
 SWEEP_HELP = "Expected error of a feed-forward along sines of these frequencies and several amplitudes, by the model."
 
 
@@ -41,7 +46,8 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option("--rig", metavar="NAME", help="Compare controllers on this virtual rig; see `list rigs`.")
 @click.option("--reference", type=existing_file, help="CSV with time and the wanted output: make the input for it.")
 @click.option("--sweep", callback=_frequencies, metavar="F,F,...", help=SWEEP_HELP)
-@click.option("--rate", type=click.FloatRange(min=0, min_open=True), help="Samples a second; default: 10000.")
+@reference_options
+@click.option("--rate", type=click.FloatRange(min=0, min_open=True), help=RATE_HELP)
 @click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
@@ -55,6 +61,7 @@ def control(
     rig: str | None,
     reference: Path | None,
     sweep: tuple[float, ...],
+    layout: Layout,
     rate: float | None,
     amplitude: float | None,
     voltage_limit: float | None,
@@ -67,8 +74,12 @@ def control(
 ) -> None:
     """Use a fitted MODEL.json: the input that follows a trajectory (--reference), the error to expect over amplitude
     and frequency (--sweep), controllers on a rig (--rig)."""
+    import numpy as np
+
     from hysteresis_bench import control as control_on_rig
     from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.control.trajectories.driven import forward_of
+    from hysteresis_bench.control.trajectories.trajectory import follow
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.report.control.page import print_control, write_control
@@ -90,8 +101,10 @@ def control(
     folder = out or Path(f"{model.stem}-control")
     check_folder(folder, FILES, FILES[0], inputs, force)
     if reference is not None:
+        layout = replace(layout, rate=rate if rig is None else None)
         try:
-            _follow(fitted, reference, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)
+            followed = follow(fitted, forward_of(fitted), reference, voltage_limit or np.inf, layout=layout)
+            _write_followed(fitted, followed, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)
         except ValueError as error:
             raise UserError(str(model), str(error)) from None
     if sweep:
@@ -116,15 +129,14 @@ def control(
         say_page(console, page, open_page)
 
 
-def _follow(fitted: FittedModel, path: Path, limit: float | None, folder: Path, *, drawn: Path, as_json: bool) -> None:
+def _write_followed(
+    fitted: FittedModel, followed: Followed, limit: float | None, folder: Path, *, drawn: Path, as_json: bool
+) -> None:
     import numpy as np
     import pandas as pd
 
-    from hysteresis_bench.control.trajectories.driven import forward_of
-    from hysteresis_bench.control.trajectories.trajectory import follow
     from hysteresis_bench.data.csv_files import write_table
 
-    followed = follow(fitted, forward_of(fitted), path, np.inf if limit is None else limit)
     columns = {"time": followed.time, "input": followed.input, "output": followed.output}
     table = pd.DataFrame({f"{name} [{fitted.units[name]}]": values for name, values in columns.items()})
     table["at_limit"] = followed.cut.astype(int)

@@ -3,6 +3,7 @@
 import json
 import os
 import webbrowser
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -79,6 +80,18 @@ def test_where_nothing_can_be_written_is_told_before_the_work(here, monkeypatch)
     for command in (fit, ("control", "model.json", "--sweep", "1", "--out")):
         assert "is read-only. Choose another place with --out." in told(*command, "new/place", code=2)
     assert "is read-only" in told("predict", "model.json", "loop.csv", "--out", "p.csv", code=2)
+
+
+def test_a_reference_without_names_or_time(here):
+    (here / "bare.txt").write_text("\n".join(f"{np.sin(i / 9):.6f}" for i in range(120)), encoding="utf-8")
+    refused = told("control", "model.json", "--reference", "bare.txt", "--out", "b", code=2)
+    assert "only 1 column" in refused
+    command = ("control", "model.json", "--reference", "bare.txt", "--output", "1", "--rate", "100", "--out", "b")
+    told(*command)
+    assert pd.read_csv(here / "b" / "feed-forward.csv").iloc[-1, 0] == 1.19
+    ranges = {"ranges": {"input": [-0.5, 0.5]}}
+    write_model(here / "model.json", replace(MODEL, data=ranges))
+    assert "need an input beyond the fitted ones (-0.5 to 0.5)" in told(*command)
 
 
 def test_control_tells_a_program(here):
