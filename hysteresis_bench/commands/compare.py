@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
-from hysteresis_bench.commands.outputs import check_folder, force_option
+from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
-from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 @preparation_options
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
+@plot_option
 @json_option
 @open_option
 @force_option
@@ -40,6 +41,7 @@ def compare(
     prepared: dict[str, Any],
     jobs: int | None,
     seed: int,
+    plot: Path | None,
     as_json: bool,
     open_page: bool,
     force: bool,
@@ -56,10 +58,11 @@ def compare(
     from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
-    from hysteresis_bench.report.laws.page import FILE, FILES, print_comparison, write_comparison
+    from hysteresis_bench.report.laws.page import FILE, FILES, draw_comparison, print_comparison, write_comparison
 
     folder = out or Path(f"{data[0].stem}-laws")
     check_folder(folder, FILES, FILE, data, force)
+    check_plot(plot, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console(aside=as_json)
     if not as_json:
         say_understood(console, dataset)
@@ -71,8 +74,12 @@ def compare(
             options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
             found = compare_laws(dataset, models, effects, options=options)
         page = write_comparison(folder, found, data)
+    if plot is not None:
+        draw_comparison(plot, found)
     if as_json:
-        say_json({**found.as_dict(), "notes": found.notes, "page": page})
+        say_json({**found.as_dict(), "notes": found.notes, "page": page, "figure": plot})
     else:
         print_comparison(found, console)
+        if plot is not None:
+            say_path(console, "figure", plot)
     say_page(console, page, open_page)

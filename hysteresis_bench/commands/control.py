@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from hysteresis_bench.commands.outputs import check_file, check_folder, force_option
+from hysteresis_bench.commands.data.options import reference_options
+from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
@@ -17,12 +19,15 @@ if TYPE_CHECKING:
     import pandas as pd
     from rich.console import Console
 
+    from hysteresis_bench.control.trajectories.trajectory import Followed
+    from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.fit.model_file import FittedModel
 
 existing_file = click.Path(path_type=Path)
 FEED_FORWARD, TRACKING, SWEEP, SWEPT = "feed-forward.csv", "tracking.svg", "sweep.csv", "sweep.svg"
 FILES = ("control.html", "control.csv", "responses.csv")
 AMPLITUDE_HELP = "Of the references; default: 2. Of a --sweep; default: four shares of the fitted range."
+RATE_HELP = "Samples a second on the rig, default: 10000; or of a --reference that has no column of time."
 SWEEP_HELP = "Expected error of a feed-forward along sines of these frequencies and several amplitudes, by the model."
 
 
@@ -41,13 +46,12 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option("--rig", metavar="NAME", help="Compare controllers on this virtual rig; see `list rigs`.")
 @click.option("--reference", type=existing_file, help="CSV with time and the wanted output: make the input for it.")
 @click.option("--sweep", callback=_frequencies, metavar="F,F,...", help=SWEEP_HELP)
-@click.option("--rate", type=click.FloatRange(min=0, min_open=True), help="Samples a second; default: 10000.")
+@reference_options
+@click.option("--rate", type=click.FloatRange(min=0, min_open=True), help=RATE_HELP)
 @click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
 @click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
-@click.option(
-    "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw the --reference, or the --sweep, here."
-)
+@plot_option
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
 @open_option
@@ -57,6 +61,7 @@ def control(
     rig: str | None,
     reference: Path | None,
     sweep: tuple[float, ...],
+    layout: Layout,
     rate: float | None,
     amplitude: float | None,
     voltage_limit: float | None,
@@ -69,18 +74,21 @@ def control(
 ) -> None:
     """Use a fitted MODEL.json: the input that follows a trajectory (--reference), the error to expect over amplitude
     and frequency (--sweep), controllers on a rig (--rig)."""
+    import numpy as np
+
     from hysteresis_bench import control as control_on_rig
     from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.control.trajectories.driven import forward_of
+    from hysteresis_bench.control.trajectories.trajectory import follow
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.report.control.page import print_control, write_control
-    from hysteresis_bench.report.shared.papers import check_figure
+    from hysteresis_bench.report.fit.folder import MODEL
 
-    if plot is not None:
-        if (reference is None) == (not sweep):
-            raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
-        check_file(plot, [model, *([reference] if reference else [])], force)
-        check_figure(plot)
+    inputs = [model, *([reference] if reference else [])]
+    if plot is not None and (reference is None) == (not sweep):
+        raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
+    check_plot(plot, inputs, force)
     if as_json and sum(map(bool, (rig, reference, sweep))) > 1:
         raise UserError("control", "--json tells a --reference, a --sweep or a --rig, and one of them alone.")
     if rig is None and reference is None and not sweep:
@@ -91,10 +99,12 @@ def control(
         )
     fitted = read_model(model)
     folder = out or Path(f"{model.stem}-control")
-    check_folder(folder, FILES, FILES[0], [model, *([reference] if reference else [])], force)
+    check_folder(folder, FILES, FILES[0], inputs, force)
     if reference is not None:
+        layout = replace(layout, rate=rate if rig is None else None)
         try:
-            _follow(fitted, reference, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)
+            followed = follow(fitted, forward_of(fitted), reference, voltage_limit or np.inf, layout=layout)
+            _write_followed(fitted, followed, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)
         except ValueError as error:
             raise UserError(str(model), str(error)) from None
     if sweep:
@@ -108,7 +118,8 @@ def control(
             steps_told("control") as on_step,
         ):
             comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed, on_step=on_step)
-        page = write_control(folder, comparison, f"{fitted.model} ({model.stem})")
+        called = model.resolve().parent.name if model.name == MODEL else model.stem
+        page = write_control(folder, comparison, f"{fitted.model} ({called})")
         if as_json:
             scores = comparison.scores.to_dict("records")
             say_json({"scores": scores, "tuning": comparison.tuning, "warnings": comparison.warnings, "page": page})
@@ -118,15 +129,14 @@ def control(
         say_page(console, page, open_page)
 
 
-def _follow(fitted: FittedModel, path: Path, limit: float | None, folder: Path, *, drawn: Path, as_json: bool) -> None:
+def _write_followed(
+    fitted: FittedModel, followed: Followed, limit: float | None, folder: Path, *, drawn: Path, as_json: bool
+) -> None:
     import numpy as np
     import pandas as pd
 
-    from hysteresis_bench.control.trajectories.driven import forward_of
-    from hysteresis_bench.control.trajectories.trajectory import follow
     from hysteresis_bench.data.csv_files import write_table
 
-    followed = follow(fitted, forward_of(fitted), path, np.inf if limit is None else limit)
     columns = {"time": followed.time, "input": followed.input, "output": followed.output}
     table = pd.DataFrame({f"{name} [{fitted.units[name]}]": values for name, values in columns.items()})
     table["at_limit"] = followed.cut.astype(int)

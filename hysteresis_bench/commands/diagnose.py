@@ -10,10 +10,10 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
 from hysteresis_bench.commands.data.parameters import model_options
-from hysteresis_bench.commands.outputs import check_folder, force_option
+from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option
-from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page
+from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -38,6 +38,7 @@ SHOWN = 8
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
+@plot_option
 @json_option
 @open_option
 @force_option
@@ -54,6 +55,7 @@ def diagnose(
     jobs: int | None,
     out: Path | None,
     seed: int,
+    plot: Path | None,
     as_json: bool,
     open_page: bool,
     force: bool,
@@ -72,10 +74,12 @@ def diagnose(
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
+    from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
     from hysteresis_bench.report.diagnosis.page import FILE, write_diagnosis_page
 
     folder = out or Path(f"{data[0].stem}-diagnosis")
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
+    check_plot(plot, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
     if not as_json:
         say_understood(console, dataset)
@@ -88,11 +92,15 @@ def diagnose(
             found = find(dataset, model, effects, **asked, options=options)
         path = write_diagnosis(folder, found, data)
         page = write_diagnosis_page(path.parent)
+    if plot is not None:
+        draw_diagnosis(plot, folder)
     if as_json:
         click.echo(path.read_text(encoding="utf-8"), nl=False)
         return
     print_diagnosis(found, console)
-    console.print(f"diagnosis: {path}", highlight=False, soft_wrap=True)
+    say_path(console, "diagnosis", path)
+    if plot is not None:
+        say_path(console, "figure", plot)
     say_page(console, page, open_page)
 
 

@@ -11,10 +11,10 @@ import click
 
 from hysteresis_bench.commands.data.options import data_options, preparation_options, say_understood
 from hysteresis_bench.commands.data.parameters import model_options
-from hysteresis_bench.commands.outputs import check_folder, force_option
+from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
-from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @click.option("--optimizer", help="A registered optimizer; see `list optimizers`.")
 @click.option("--budget", type=click.IntRange(min=1), help="Evaluations of each of the two searches.")
+@plot_option
 @json_option
 @open_option
 @force_option
@@ -50,6 +51,7 @@ def fit(
     seed: int,
     optimizer: str | None,
     budget: int | None,
+    plot: Path | None,
     as_json: bool,
     open_page: bool,
     force: bool,
@@ -73,9 +75,11 @@ def fit(
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.report.fit.folder import FILES, print_fit, write_fit
     from hysteresis_bench.report.fit.page import FILE
+    from hysteresis_bench.report.shared.papers import draw_fit
 
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
+    check_plot(plot, data, force)
     dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
     if not as_json:
         say_understood(console, dataset)
@@ -93,10 +97,14 @@ def fit(
             options = replace(options, on_step=on_step, kept=kept)
             fitted = fit_model(dataset, model, effects, **asked, options=options)
         page = write_fit(folder, fitted, data)
+    if plot is not None:
+        draw_fit(plot, fitted.responses, fitted.model.units)
     if as_json:
         tables = {"parameters": fitted.parameters.to_dict("records"), "records": fitted.records.to_dict("records")}
         said = {"agreement": fitted.agreement, "warnings": fitted.warnings, "notes": fitted.notes}
-        say_json({"model": fitted.model.model, **tables, **said, "page": page})
+        say_json({"model": fitted.model.model, **tables, **said, "page": page, "figure": plot})
         return
     print_fit(fitted, console)
+    if plot is not None:
+        say_path(console, "figure", plot)
     say_page(console, page, open_page)

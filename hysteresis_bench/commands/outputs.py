@@ -15,6 +15,9 @@ REPORT, CONTINUED = "report.html", ("trials.sqlite", "cases")
 CLOSING = "closing.json"
 """What a study keeps beside the diagnosis at its end."""
 
+plot_option = click.option(
+    "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw it for a paper: .pdf, .svg or .png."
+)
 force_option = click.option("--force", is_flag=True, help="Write over what is there, also over the inputs.")
 
 
@@ -29,6 +32,15 @@ def check_file(out: Path, inputs: Sequence[Path] = (), force: bool = False) -> N
         raise UserError(str(out), "is one of the inputs; choose another name, or --force to replace it.")
     if out.is_file() and not force:
         raise UserError(str(out), "is there already; choose another name, or --force to replace it.")
+
+
+def check_plot(plot: Path | None, inputs: Sequence[Path] = (), force: bool = False) -> None:
+    """Raises UserError now for a figure that could not be drawn at the end, or would replace a file; None is well."""
+    from hysteresis_bench.report.shared.papers import check_figure
+
+    if plot is not None:
+        check_figure(plot)
+        check_file(plot, inputs, force)
 
 
 def check_folder(

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.outputs import check_file, check_plot, force_option, plot_option
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 @click.option(
     "--interval", "level", type=click.Choice(("50", "68", "90", "95", "99")), default="90", help="Percent; default: 90."
 )
-@click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw it: .pdf, .svg or .png.")
+@plot_option
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), required=True, help="The CSV to write.")
 @json_option
 @force_option
@@ -44,12 +44,9 @@ def predict(
     check_file(out, (model, *data), force)
     from hysteresis_bench.data.data_files import read_data, write_csv
     from hysteresis_bench.fit.model_file import read_model
-    from hysteresis_bench.report.shared.papers import check_figure, draw_prediction
+    from hysteresis_bench.report.shared.papers import draw_prediction
 
-    if plot is not None:
-        check_file(plot, (model, *data), force)
-        check_figure(plot)
-
+    check_plot(plot, (model, *data), force)
     fitted, console = read_model(model), plain_console()
     measured = read_data(data, output_needed=False, units=fitted.units, layout=layout)
     predicted, known = fitted.predict(measured, int(level)), fitted.in_own_units(measured)
@@ -60,7 +57,7 @@ def predict(
         draw_prediction(plot, known, predicted)
     if as_json:
         found = {name: {**error.as_dict(), "within": within.get(name)} for name, error in errors.items()}
-        say_json({"records": found, "interval": promised, "notes": predicted.notes, "prediction": out})
+        say_json({"records": found, "interval": promised, "notes": predicted.notes, "prediction": out, "figure": plot})
         return
     say_understood(console, measured)
     say_notes(console, predicted.notes)

@@ -94,7 +94,8 @@ def compare(
     table = pd.DataFrame(scores)
     conditions = {"rig": name, "rate": rate, "amplitude": amplitude, "seed": seed, "voltage_limit": rig.input_limit}
     warnings = (*bench.told, *_warnings(table, bench.forward, fitted))
-    return Comparison(table, pd.concat(responses), bench.tuning, fitted.units, conditions, NOTES, warnings)
+    notes = NOTES if bench.forward.linear is None else (*NOTES, *OF_THE_PAPER)
+    return Comparison(table, pd.concat(responses), bench.tuning, fitted.units, conditions, notes, warnings)
 
 
 def course(run: Run) -> pd.DataFrame:
@@ -112,10 +113,13 @@ NOTES = (
     "average it. The delay floor is the RMS error of an output that is perfect but one sample late; a reference "
     "that is known ahead can be followed more closely.",
     "The tuning uses the identified model alone, never the rig: the strongest feedback whose largest amplification "
-    "of a disturbance stays below 2, with two samples of lag to spare. The published values of C, epsilon and rho "
-    "repeat those of the Bouc-Wen model and cannot be the controller's.",
-    "The feed-forward is the exact inverse of the discrete model. Equation (14), read with the paper's own names "
-    "(u0 the reference), is the forward model; with the names exchanged it is the inverse, and implicit.",
+    "of a disturbance stays below 2, with two samples of lag to spare.",
+    "The feed-forward is the exact inverse of the discrete model.",
+)
+OF_THE_PAPER = (
+    "The published values of C, epsilon and rho repeat those of the Bouc-Wen model and cannot be the controller's.",
+    "Equation (14), read with the paper's own names (u0 the reference), is the forward model; with the names exchanged "
+    "it is the inverse, and implicit.",
     "Figure 12 puts the inverse in series with the feedback law. A Bouc-Wen model forgets its hysteresis along every "
     "small reversal, so a law that chatters wipes out the compensation: see sliding-mode-printed, which adds nothing "
     "to (15) and Figure 12, and sliding-mode-series, with our observer. The others run the inverse along the "

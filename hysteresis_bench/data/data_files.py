@@ -20,7 +20,8 @@ from hysteresis_bench.data.readers.columns import KEEP_FAULTS
 from hysteresis_bench.data.readers.files import read_sheets
 from hysteresis_bench.data.readers.samples import HISTORY, Columns, numbers_of
 from hysteresis_bench.data.readers.samples import LARGEST as LARGEST
-from hysteresis_bench.data.units import in_units
+from hysteresis_bench.data.readers.sheet import Sheet, together
+from hysteresis_bench.data.units import in_units, is_no_duration
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import INDEX, UNITLESS, Dataset, Record, joined
 
@@ -62,14 +63,10 @@ def read_columns(path: Path, required: Sequence[str], layout: Layout = AS_THEY_S
 
 def _columns(path: Path, required: Sequence[str], layout: Layout) -> list[Columns]:
     """Those of every sheet that has the required ones."""
-    found, refused = [], []
     sheets = read_sheets(path, layout)
-    for sheet in sheets:
-        where = f"{path}, {sheet.name}" if sheet.name and len(sheets) > 1 else str(path)
-        try:
-            found.append(numbers_of(where, sheet, layout, required))
-        except UserError as error:
-            refused.append((sheet.name, error))
+    found, refused = _readable(path, sheets, layout, required)
+    if not found and len(sheets) > 1 and not any(_is_broken(error) for _, error in refused):
+        found, refused = _readable(path, [together(sheets)], layout, required)  # the columns may lie apart
     if not found or (refused and layout.sheet is None and any(_is_broken(error) for _, error in refused)):
         raise refused[0][1] if not found else next(error for _, error in refused if _is_broken(error))
     if refused:
@@ -77,6 +74,20 @@ def _columns(path: Path, required: Sequence[str], layout: Layout) -> list[Column
         told = f"{path}: {names} left out: the columns that are needed are not there."
         found[0] = replace(found[0], notes=(*found[0].notes, told))
     return found
+
+
+def _readable(
+    path: Path, sheets: Sequence[Sheet], layout: Layout, required: Sequence[str]
+) -> tuple[list[Columns], list[tuple[str, UserError]]]:
+    """Those sheets that can be read, and why the others cannot, with their names."""
+    found, refused = [], []
+    for sheet in sheets:
+        where = f"{path}, {sheet.name}" if sheet.name and len(sheets) > 1 else str(path)
+        try:
+            found.append(numbers_of(where, sheet, layout, required))
+        except UserError as error:
+            refused.append((sheet.name, error))
+    return found, refused
 
 
 def _is_broken(error: UserError) -> bool:
@@ -111,9 +122,11 @@ def time_faults(time: Array, lines: Array) -> list[str]:
     where = f'row {lines[first + 1]}, column "time":'
     if step[first] > 0:
         return [f"{where} a step of {step[first]:g} is too short to work with."]
-    return [
-        f"{where} {time[first + 1]:g} does not come after {time[first]:g}; time must strictly increase within a record."
-    ]
+    told = f"{where} {time[first + 1]:g} does not come after {time[first]:g}; "
+    told += "time must strictly increase within a record."
+    if step[first] == 0:
+        return [f"{told} Where the clock is too coarse, give --rate HZ."]
+    return [f"{told} Where another record begins, tell them apart by a column run, or an empty line between them."]
 
 
 def _records(path: Path, output_needed: bool, layout: Layout) -> Dataset:
@@ -125,6 +138,8 @@ def _records(path: Path, output_needed: bool, layout: Layout) -> Dataset:
     faults: list[str] = []
     records, rows = [], []
     for columns in sheets:
+        if is_no_duration(unit := columns.units.get("time", "s")):
+            faults.append(f'column "time" is in {unit}, which is no unit of time; is it the right column?')
         names = columns.runs or [""] * columns.lines.size
         samples: dict[str, list[int]] = {}
         for sample, run in enumerate(names):

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import replace
 from functools import cache
 from typing import Any
@@ -44,6 +45,12 @@ def same_unit(one: str, other: str) -> bool:
 def is_unit(text: str) -> bool:
     """Whether a text is a unit that is known, or says that there is none."""
     return text.strip().rstrip(".") in ARBITRARY or _parsed(text) is not None
+
+
+def is_no_duration(text: str) -> bool:
+    """Whether a text is a known unit of something else than time; an angle or a number may stand for time."""
+    unit = None if text == "s" else _parsed(text)
+    return unit is not None and not unit.dimensionless and not unit.is_compatible_with("s")
 
 
 def converted(values: Array, unit: str, wanted: str) -> Array:
@@ -162,7 +169,7 @@ def _parsed(text: str) -> Any:
     plain = TORQUE.sub(r"\1N*m", DEGREES.sub(r"deg\1", plain))
     plain = re.sub(r"[·⋅×]|(?<=\w)\.(?=\w)", "*", plain)
     plain = re.sub(r"(?<=[A-Za-zµμΩ])(?<!\^)(-?\d{1,2})\b", r"^\1", plain)
-    try:
-        return _registry().parse_units(plain)
-    except Exception:  # a parser's own errors are of any type
-        return None
+    for spelled in (plain, *([plain.lower()] if plain.istitle() else [])):  # `Volt`, as an oscilloscope writes it
+        with suppress(Exception):  # a parser's own errors are of any type
+            return _registry().parse_units(spelled)
+    return None

@@ -23,6 +23,8 @@ SMALLEST = 1e-6
 """Share of the range that is rounding."""
 FALSE, RESTING, OPEN, DRIFTING, JITTER, NOISY = 3, 0.05, 0.03, 0.03, 0.05, 0.002
 """False reversals for a meant one; shares of samples, of the range, of the median step, of the range."""
+AHEAD = 0.02
+"""Share of the rectangle around a cycle that it encloses against the usual sense."""
 FLAT = 5
 """Samples in a row at the largest output that are no accident."""
 CORNERS = 20
@@ -34,6 +36,7 @@ ALIKE = 0.1
 def oddities(records: Sequence[Record]) -> tuple[str, ...]:
     """Sentences on these records, each with what would help; empty where nothing is odd."""
     looks: tuple[Callable[[Record], str], ...] = (
+        _constant,
         _false_reversals,
         _input_noise,
         _plateau,
@@ -45,7 +48,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         spikes_told,
     )
     found = [said for record in records if record.time.size > 3 for look in looks if (said := look(record))]
-    return (*found, *_alike(records))
+    return (*found, *_ahead(records), *_alike(records))
 
 
 def turns(record: Record, share: float = TURN) -> Array:
@@ -63,6 +66,16 @@ def frequency(record: Record) -> float:
     """Of the meant reversals, cycles a unit of time; NaN where there are fewer than two."""
     at = record.time[turns(record)]
     return float(0.5 / np.median(np.diff(at))) if at.size > 1 else float("nan")
+
+
+def _constant(record: Record) -> str:
+    for name, values in (("input", record.input), ("output", record.output)):
+        if values is not None and not np.ptp(values) > 0.0:
+            return (
+                f"{record.name}: the {name} is {float(values[0]):.4g} throughout, so that nothing can be identified: "
+                f"is it the right column (--{name}), or was the channel off?"
+            )
+    return ""
 
 
 def _false_reversals(record: Record) -> str:
@@ -186,6 +199,29 @@ def _jitter(record: Record) -> str:
         f"{record.name}: steps of time vary by {share:.0%} (standard deviation): where the samples were taken evenly "
         f"and only their times are rough, give --rate HZ."
     )
+
+
+def _ahead(records: Sequence[Record]) -> list[str]:
+    """The records whose cycles enclose an area in the sense of an output that is ahead of its input."""
+    names = [record.name for record in records if _turning(record) > AHEAD]
+    if not names:
+        return []
+    which = names[0] if len(names) == 1 else f"{names[0]} and {len(names) - 1} more"
+    return [
+        f"{which}: the output runs ahead of the input. A force over its displacement does so; where yours should lag, "
+        f"input and output may be exchanged: say which is which with --input and --output."
+    ]
+
+
+def _turning(record: Record) -> float:
+    """The area of whole cycles over the rectangles about them, positive where a rising output is ahead of its input."""
+    at = turns(record)[::2]
+    if record.output is None or at.size < 2 or not np.ptp(record.output) > 0.0:
+        return 0.0
+    u, y = record.input[at[0] : at[-1] + 1], record.output[at[0] : at[-1] + 1]
+    rises = np.sign(float(np.sum((u - np.mean(u)) * (y - np.mean(y)))))
+    rectangles = (at.size - 1) * float(np.ptp(u)) * (float(np.ptp(y)) or 1.0)
+    return float(rises * np.sum(np.diff(u) * (y[1:] + y[:-1]) / 2.0) / rectangles)
 
 
 def _alike(records: Sequence[Record]) -> list[str]:

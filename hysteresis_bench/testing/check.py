@@ -8,9 +8,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from hysteresis_bench import registry
+from hysteresis_bench.progress import OnStep, Step, quiet
 from hysteresis_bench.study.execution.pool import Pool, Work, at_once
 from hysteresis_bench.testing.contracts.contract import Broken, promises
 from hysteresis_bench.testing.contracts.effects import EffectContract
+from hysteresis_bench.testing.contracts.limit import Overrun, within
 from hysteresis_bench.testing.contracts.models import ModelContract
 from hysteresis_bench.testing.contracts.optimizers import OptimizerContract
 from hysteresis_bench.testing.contracts.rigs import RigContract
@@ -25,18 +27,22 @@ CONTRACTS: dict[registry.Kind, type[PluginContract]] = {
 }
 KEPT, BROKEN = "kept", "broken"
 SPEED = "speed"
+WORK = "the promises, whose kernels are compiled first where they have not been"
 TIMED_OUT = "timed-out"
+HUNG = 600.0
+"""Seconds on top of the limit after which a plugin is killed that cannot be stopped otherwise, as in compiled code."""
 LONGEST = 500
 """Characters that a plugin's own message may take."""
 
 
 @dataclass(frozen=True)
 class Question:
-    """One promise of one plugin; method : of the contract, or SPEED."""
+    """One promise of one plugin; method : of the contract, or SPEED;  limit : seconds, compilation not counted"""
 
     kind: registry.Kind
     plugin: str
     method: str
+    limit: float
 
 
 @dataclass(frozen=True)
@@ -48,9 +54,10 @@ class Verdict:
     reason: str = ""
 
 
-def check(kind: registry.Kind, plugin: str, timeout: float) -> Iterator[Verdict]:
-    """Every promise in turn; where all are kept, how fast the plugin is. timeout : seconds a promise
+def check(kind: registry.Kind, plugin: str, timeout: float, on_step: OnStep = quiet) -> Iterator[Verdict]:
+    """Every promise in turn; where all are kept, how fast the plugin is.
 
+    timeout : seconds a promise, beside compilation;  on_step : told where it is
     A plugin that cannot be loaded gets one verdict; one that hangs is asked no more.
     """
     loaded = registry.load(kind, plugin)
@@ -59,27 +66,38 @@ def check(kind: registry.Kind, plugin: str, timeout: float) -> Iterator[Verdict]
         return
     asked = promises(CONTRACTS[kind])
     found: dict[str, Verdict] = {}
-    with Pool(Work(at_once(answer), timeout), jobs=1) as pool:
-        for question, outcome, status, reason in pool.run([Question(kind, plugin, method) for method in asked]):
-            promise = asked[question.method]
-            found[question.method] = outcome or Verdict(promise, BROKEN, f"{status}: {reason}.")
+    on_step(Step(WORK, 0, len(asked)))
+    with Pool(Work(at_once(answer), timeout + HUNG), jobs=1) as pool:
+        for question, outcome, status, reason in pool.run([Question(kind, plugin, name, timeout) for name in asked]):
+            found[question.method] = _judged(asked[question.method], outcome, status, reason)
+            on_step(Step(WORK, len(found), len(asked)))
             if status == TIMED_OUT:
-                found[question.method] = Verdict(promise, BROKEN, f"{reason}; what had not been tried by then was not.")
                 break
         yield from (found[method] for method in asked if method in found)
         if all(verdict.status == KEPT for verdict in found.values()):
-            for _, outcome, status, reason in pool.run([Question(kind, plugin, SPEED)]):
-                yield outcome or Verdict("Its speed can be measured.", BROKEN, f"{status}: {reason}.")
+            on_step(Step("its speed beside the shipped ones"))
+            for _, outcome, status, reason in pool.run([Question(kind, plugin, SPEED, timeout)]):
+                yield _judged("Its speed can be measured.", outcome, status, reason)
+
+
+def _judged(promise: str, outcome: Verdict | None, status: str, reason: str) -> Verdict:
+    """What is told of a promise that came to an end, or did not."""
+    if status == TIMED_OUT:
+        return Verdict(promise, BROKEN, f"{reason}; what had not been tried by then was not.")
+    return outcome or Verdict(promise, BROKEN, f"{status}: {reason}.")
 
 
 def answer(question: Question) -> Verdict:
     """Try one promise in this process."""
-    if question.method == SPEED:
-        return Verdict("Speed", KEPT, speed(question.kind, question.plugin))
     contract = CONTRACTS[question.kind]
-    promise = promises(contract)[question.method]
+    promise = promises(contract).get(question.method, "Speed")
     try:
-        getattr(contract(), question.method)(question.plugin)
+        with within(question.limit):
+            if question.method == SPEED:
+                return Verdict(promise, KEPT, speed(question.kind, question.plugin))
+            getattr(contract(), question.method)(question.plugin)
+    except Overrun:
+        return Verdict(promise, TIMED_OUT, f"stopped after {question.limit:g} s, compilation not counted")
     except Broken as broken:
         return Verdict(promise, BROKEN, _cut(str(broken)))
     except BaseException as error:  # whatever the plugin raises is its answer, sys.exit too

@@ -3,6 +3,7 @@
 import json
 import os
 import webbrowser
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -41,8 +42,15 @@ def told(*arguments, code=0):
 def test_predict_draws_and_tells_the_error(here):
     said = told("predict", "model.json", "loop.csv", "--out", "p.csv", "--plot", "p.svg")
     assert "RMSE" in said
-    assert "predicted minus measured" in (here / "p.svg").read_text(encoding="utf-8")
+    assert "Predicted minus measured" in (here / "p.svg").read_text(encoding="utf-8")
     assert "Output (" in (here / "p.svg").read_text(encoding="utf-8")
+
+
+def test_predict_draws_what_was_not_measured(here):
+    table = pd.read_csv("loop.csv")
+    table.drop(columns="output [um]").to_csv("drive.csv", index=False)
+    told("predict", "model.json", "drive.csv", "--out", "p.csv", "--plot", "p.svg")
+    assert "Predicted" in (here / "p.svg").read_text(encoding="utf-8")
 
 
 def test_control_draws_tracking(here):
@@ -56,6 +64,15 @@ def test_control_draws_tracking(here):
     )
 
 
+@pytest.mark.parametrize("command", ["check", "fit", "diagnose", "compare", "predict"])
+def test_another_kind_of_figure_is_refused_before_the_work(here, command):
+    model = {"predict": ("model.json",)}.get(command, ())
+    made = {"fit": ("--model", "polynomial"), "predict": ("--out", "p.csv")}.get(command, ())
+    assert "x.jpg: a figure is one of .pdf, .svg, .png." in told(
+        command, *model, "loop.csv", *made, "--plot", "x.jpg", code=2
+    )
+
+
 def test_where_nothing_can_be_written_is_told_before_the_work(here, monkeypatch):
     fit = ("fit", "loop.csv", "--model", "polynomial", "--out")
     assert "loop.csv is no folder" in told(*fit, "loop.csv/fit", code=2)
@@ -63,6 +80,18 @@ def test_where_nothing_can_be_written_is_told_before_the_work(here, monkeypatch)
     for command in (fit, ("control", "model.json", "--sweep", "1", "--out")):
         assert "is read-only. Choose another place with --out." in told(*command, "new/place", code=2)
     assert "is read-only" in told("predict", "model.json", "loop.csv", "--out", "p.csv", code=2)
+
+
+def test_a_reference_without_names_or_time(here):
+    (here / "bare.txt").write_text("\n".join(f"{np.sin(i / 9):.6f}" for i in range(120)), encoding="utf-8")
+    refused = told("control", "model.json", "--reference", "bare.txt", "--out", "b", code=2)
+    assert "only 1 column" in refused
+    command = ("control", "model.json", "--reference", "bare.txt", "--output", "1", "--rate", "100", "--out", "b")
+    told(*command)
+    assert pd.read_csv(here / "b" / "feed-forward.csv").iloc[-1, 0] == 1.19
+    ranges = {"ranges": {"input": [-0.5, 0.5]}}
+    write_model(here / "model.json", replace(MODEL, data=ranges))
+    assert "need an input beyond the fitted ones (-0.5 to 0.5)" in told(*command)
 
 
 def test_control_tells_a_program(here):

@@ -88,15 +88,23 @@ def test_schemas_are_what_the_forms_say(here):
         jsonschema.validate({"title": "x"}, schema("study"))
 
 
+def svg(name):
+    """A figure, and an answer for programs."""
+    return "--plot", f"{name}.svg", "--json"
+
+
 def test_json_of_fit_predict_and_diagnose(here):
     jsonschema = pytest.importorskip("jsonschema")
-    fitted = json.loads(told("fit", "slow.csv", *ROLES, "--model", "polynomial", "--budget", "100", "--json"))
+    fitted = json.loads(told("fit", "slow.csv", *ROLES, "--model", "polynomial", "--budget", "100", *svg("f")))
     assert {row["name"] for row in fitted["parameters"]} == {"a", "b"}
     jsonschema.validate(json.loads((here / "slow-fit" / "model.json").read_text()), schema("model"))
     predicted = json.loads(told("predict", "slow-fit/model.json", "fast.csv", *ROLES, "--out", "p.csv", "--json"))
     assert predicted["records"]["fast"]["rmse"] > 0.0
-    found = json.loads(told("diagnose", "slow.csv", *ROLES, "--model", "polynomial", "--jobs", "1", "--json"))
+    found = json.loads(told("diagnose", "slow.csv", *ROLES, "--model", "polynomial", "--jobs", "1", *svg("d")))
     jsonschema.validate(found, schema("diagnosis"))
+    assert fitted["figure"] == "f.svg"
+    assert "Fitted minus measured" in (here / "f.svg").read_text(encoding="utf-8")
+    assert "Measured minus simulated" in (here / "d.svg").read_text(encoding="utf-8")
 
 
 def test_json_of_lists():
@@ -107,7 +115,8 @@ def test_json_of_lists():
 
 
 def test_json_of_compare_run_and_check_plugin(here):
-    compared = json.loads(told("compare", "slow.csv", *ROLES, "--models", "polynomial", "--jobs", "1", "--json"))
+    compared = json.loads(told("compare", "slow.csv", *ROLES, "--models", "polynomial", "--jobs", "1", *svg("c")))
+    assert "cubic polynomial" in (here / compared["figure"]).read_text(encoding="utf-8")
     assert {row["law"] for row in compared["laws"]} >= {"polynomial", "cubic polynomial"}
     made = json.loads(told("new-study", "slow.csv", *ROLES, "--model", "polynomial", "--out", "mine.toml", "--json"))
     assert (made["study"], made["records"][0]["input"]) == ("mine.toml", "drive (V)")

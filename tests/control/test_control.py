@@ -332,7 +332,7 @@ def test_trajectories_with_faults_are_told_by_row(tmp_path):
         ("time,output\n0,1\n1,x\n", 'row 3, column "output"'),
         ("time,output\n0,1\n0,2\n", "must strictly increase"),
         ("time,output\n0,1\n", "at least 2"),
-        ("", "cannot be read"),
+        ("", "is empty"),
     ):
         path.write_text(text)
         with pytest.raises(UserError, match=words):

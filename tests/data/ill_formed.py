@@ -59,6 +59,28 @@ def stamped(lines: list[str]) -> list[str]:
             for second, line in zip(TIME, lines, strict=True)]  # fmt: skip
 
 
+def minutes(lines: list[str]) -> list[str]:
+    return [f"59:{59 + second:06.3f},{line.partition(',')[2]}" for second, line in zip(TIME, lines, strict=True)]
+
+
+def late(lines: list[str]) -> list[str]:
+    clocks = [f"23:59:59.{510 + 10 * number}" for number in range(49)]
+    return [f"{one}{line[8:]}" for one, line in zip([*clocks, "00:00:00.000"], lines, strict=True)]
+
+
+def half_days(lines: list[str]) -> list[str]:
+    return [f"12:59:59.{int(1000 * second):03d} PM{line[8:]}" for second, line in zip(TIME, lines, strict=True)]
+
+
+def dotted(lines: list[str]) -> list[str]:
+    return [f"06.05.2024 {line}" for line in clock([line.replace(",", ";") for line in lines])]
+
+
+def grouped(mark: str) -> Callable[[list[str]], list[str]]:
+    """A further column with blanks or the like between thousands."""
+    return lambda lines: [f"{line};1{mark}200.5" for line in lines]
+
+
 def scientific(lines: list[str]) -> list[str]:
     return [",".join(f"{float(cell):.8E}" for cell in line.split(",")) for line in lines]
 
@@ -103,6 +125,23 @@ def xlsx(**sheets: list[list[Any]]) -> Write:
         book.save(path)
 
     return write
+
+
+def cells(*tables: Any) -> Any:
+    made = np.empty(len(tables), dtype=object)
+    made[:] = tables
+    return made
+
+
+def mat_73(path: Path) -> None:
+    """As MATLAB writes cells: references into a group of their own."""
+    import h5py
+
+    with h5py.File(path, "w", userblock_size=512) as file:
+        tables = [file.create_dataset(f"#refs#/{name}", data=COLUMNS.T) for name in "ab"]
+        file["runs"] = np.array([table.ref for table in tables], dtype=h5py.ref_dtype)
+    with path.open("r+b") as raw:
+        raw.write(b"MATLAB 7.3 MAT-file".ljust(124) + b"\0\2IM")
 
 
 SI = {"time": "s", "input": "V", "output": "um"}
@@ -184,7 +223,7 @@ CASES: dict[str, Case] = {
         text("time,input,output", edit=lambda lines: [*lines[:20], "time,input,output", *lines[20:]]), "begin it with #"
     ),
     "an overflow": Case(text("time,input,output", edit=at(9, "0.09,inf,1.5")), 'row 11, column "input": "inf" is not'),
-    "nothing": Case(lambda path: path.write_bytes(b""), "No columns"),
+    "nothing": Case(lambda path: path.write_bytes(b""), "is empty"),
     "a header only": Case(lambda path: path.write_text("time,input,output\n"), "no samples"),
     "one sample": Case(lambda path: path.write_text("time,input,output\n0,1,2\n"), "at least 2"),
     "time that runs back": Case(text("time,input,output", columns=COLUMNS[::-1]), "must strictly increase"),
@@ -217,6 +256,71 @@ CASES: dict[str, Case] = {
         '"1,000" may be a decimal comma or thousands; give --decimal', suffix=".xlsx",
     ),
     "a text that is a spreadsheet": Case(lambda path: path.write_bytes(b"PK\3\4\0\0"), "is not text"),
+    "LabVIEW's preamble": Case(
+        text("X_Value\tVoltage\tDisplacement\tComment", "\t", before=[
+            "LabVIEW Measurement\t", "Separator\tTab", "***End_of_Header***\t", "\t", "Channels\t2\t",
+            "Samples\t50\t50", "X0\t0.0\t0.0", "Delta_X\t0.01\t0.01", "***End_of_Header***\t\t"]),
+        layout={"time": "X_Value", **NAMED}, suffix=".lvm",
+    ),
+    "LabVIEW's preamble, not told": Case(
+        text("X_Value\tVoltage\tDisplacement\tComment", "\t", before=["Samples\t50\t50"]),
+        "displacement, voltage, x_value", suffix=".lvm",
+    ),
+    "units in words": Case(text("x-axis,1,2\nsecond,Volt,Volt"), units={"time": "second", "input": "Volt"},
+                           layout={"time": "x-axis", "input": "1", "output": "2"}),
+    "a word below the header": Case(text("time,input,output\nSequence,Volt,0.0"), "begin it with #"),
+    "a unit behind a bar": Case(text("t / s,input / V,output in um"), units=SI),
+    "a unit in the time's name": Case(text("time_s,input,output"), units={"time": "s"}),
+    "time in volts": Case(text("time [V],input,output"), "no unit of time; is it the right column"),
+    "names with blanks": Case(
+        text("Time (s)  Voltage (V)   Displacement (um)", "  "), layout={"time": "Time", **NAMED}, units=SI
+    ),
+    "more names than columns": Case(text("time s input V output um", " "), "only 3 columns. Give its position"),
+    "minutes and seconds": Case(text("time,input,output", edit=minutes)),
+    "past midnight": Case(text("time,input,output", edit=late)),
+    "half days": Case(text("time,input,output", edit=half_days)),
+    "dates with dots": Case(text("time;input;output", ";", edit=dotted)),
+    "a coarse clock": Case(text("time,input,output", columns=COLUMNS * [0, 1, 1]), "too coarse, give --rate HZ"),
+    "no-break blanks between thousands": Case(text("time;input;output;load", ";", edit=grouped("\u202f"))),
+    "UTF-16 without a mark": Case(text("time,input,output", encoding="utf-16-le")),
+    "zeros behind the end": Case(text("time,input,output", edit=lambda lines: [*lines, "\0" * 99])),
+    "a mark of an old end": Case(text("time,input,output", edit=lambda lines: [*lines, "\x1a"])),
+    "bytes": Case(lambda path: path.write_bytes(bytes(range(1, 99)) * 9), "is not text", suffix=".dat"),
+    "JSON": Case(lambda path: path.write_text('{"time": [1, 2]}'), "it is JSON"),
+    "packed": Case(lambda path: path.write_bytes(b"\x1f\x8b"), "unpack it first", suffix=".csv.gz"),
+    "an instrument's missing reading": Case(text("time,input,output", edit=at(9, "0.09,9.91E+37,1.5")), lost=(9,)),
+    "an instrument's overflow": Case(text("time,input,output", edit=at(9, "0.09,9.9E+37,1.5")), "for an overflow"),
+    "a word for an overflow": Case(text("time,input,output", edit=at(9, "0.09,OVER,1.5")), "Empty the cell"),
+    "a compiler's missing number": Case(text("time,input,output", edit=at(9, "0.09,-1.#IND,1.5")), lost=(9,)),
+    "units in the cells": Case(
+        text("time;input;output", ";", edit=lambda lines: [f"{one} um" for one in lines]), "Take the unit out of"
+    ),
+    "a decimal point, said to be a comma": Case(
+        text("time;input;output", ";"), "Is it a decimal point?", layout={"decimal": ","}
+    ),
+    "records parted by empty lines": Case(
+        text("time,input,output", edit=lambda lines: [*lines, "", *lines]), records=2
+    ),
+    "records that nothing parts": Case(
+        text("time,input,output", edit=lambda lines: [*lines, *lines]), "or an empty line between them"
+    ),
+    "two inputs": Case(text("time,input,input,output", columns=COLUMNS[:, [0, 1, 1, 2]]), "--input 2 or --input 3"),
+    "two notes": Case(text("time,input,output,note,note", columns=COLUMNS[:, [0, 1, 2, 2, 2]])),
+    "npz with objects": Case(npz(**RECORD, bench=cells({"number": 3})), suffix=".npz"),
+    "npz with dates": Case(
+        npz(**RECORD | {"time": np.datetime64("2024-05-06") + (1e9 * TIME).astype("m8[ns]")}), suffix=".npz"
+    ),
+    "mat with cells": Case(
+        mat(runs=cells(COLUMNS, COLUMNS)), layout={"time": "1", "input": "2", "output": "3"}, records=2, suffix=".mat"
+    ),
+    "mat with columns apart": Case(
+        mat(rec={"X": {"Data": TIME}, "Y": cells({"Name": "u", "Data": INPUT}, {"Name": "y", "Data": OUTPUT})}),
+        layout={"time": "rec/X/Data", "input": "rec/Y/1/Data", "output": "rec/Y/2/Data"}, suffix=".mat",
+    ),
+    "xlsx with formulas without values": Case(
+        xlsx(Sheet1=[["time", "input", "output"], *[["=ROW()", u, y] for _, u, y in ROWS]]),
+        "open it there and save it", suffix=".xlsx",
+    ),
     "an old spreadsheet": Case(lambda path: path.write_bytes(b"\xd0\xcf\0"), "save it as .xlsx", suffix=".xls"),
     "a broken spreadsheet": Case(lambda path: path.write_bytes(b"PK"), "cannot be read as a spre", suffix=".xlsx"),
 }  # fmt: skip

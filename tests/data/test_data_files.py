@@ -46,11 +46,14 @@ def test_time_as_an_index_switches_rate_effects_off(tmp_path):
         ("time,input,output\n0,1,2\n2,2,3\n2,3,4\n", 'row 4, column "time": 2 does not come after 2'),
         ("time,input,output\n0,1,2\n", "has 1 sample"),
         ("time,input,output\n0,1,2\n1,1,3\n", "constant at 1"),
-        ("time,input,output,input\n0,1,2,3\n1,2,3,4\n", 'two columns are called "input"'),
+        (
+            "time,input,output,input\n0,1,2,3\n1,2,3,4\n",
+            'two columns are called "input". Say which it is with --input 2 or --input 4',
+        ),
         ("time,input,output\n0,1,2\n\n1,x,3\n", 'row 4, column "input"'),
         ("time,input,output\n0,1,2\n1,2\n", 'row 3, column "output": empty'),
         ("time,input,output\n0,1,2\n1,2,3,4\n", "Expected 3 fields in line 3, saw 4"),
-        ("", "cannot be read as CSV"),
+        ("", "is empty"),
         ("time,input,output\n", "no samples"),
     ],
 )

@@ -6,8 +6,9 @@ import pytest
 from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.data.layout import Layout
 from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark, number
+from hysteresis_bench.data.readers.sheet import parted
 from hysteresis_bench.errors import UserError
-from tests.data.ill_formed import CASES, INPUT, OUTPUT, TIME
+from tests.data.ill_formed import CASES, INPUT, OUTPUT, TIME, mat_73
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -87,3 +88,26 @@ def test_an_ambiguous_mark_is_decided_by_the_user(tmp_path):
 def test_a_layout_tells_all_faults():
     with pytest.raises(UserError, match="has 4 faults"):
         Layout(delimiter="x", decimal=";", rate=-1.0, time="t")
+
+
+def test_cells_of_matlab_73_are_records(tmp_path):
+    pytest.importorskip("h5py")
+    mat_73(tmp_path / "a.mat")
+    dataset = read_data([tmp_path / "a.mat"], layout=Layout(time="1", input="2", output="3"))
+    assert dataset.names == ("a:runs/1", "a:runs/2")
+    np.testing.assert_array_equal(dataset.records[1].input, INPUT)
+
+
+@pytest.mark.parametrize(
+    ("header", "parts"),
+    [
+        ("time_ms", ("time", "ms")),
+        ("Time in ms", ("Time", "ms")),
+        ("U / kV", ("U", "kV")),
+        ("t_a", ("t_a", None)),
+        ("stress in out", ("stress in out", None)),
+        ("in / out", ("in / out", None)),
+    ],
+)
+def test_a_unit_in_a_name(header, parts):
+    assert parted(header) == parts

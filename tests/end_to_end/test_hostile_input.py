@@ -50,7 +50,7 @@ HOSTILE = {
     "a million blanks": ("time,input" + " " * 1_000_000 + "[V],output\n", "has a name of 1000008 characters"),
     "one sample": ("time,input,output\n0,1,1\n", "has 1 sample"),
     "an underscore": ("time,input,output\n0,1_0,1\n1,2,1\n", '"1_0" is not a finite number'),
-    "nothing": ("", "cannot be read as CSV"),
+    "nothing": ("", "is empty"),
     "an unclosed quote": ('time,input,output\n"0,1,1\n', "cannot be read as CSV"),
 }  # fmt: skip
 

@@ -40,6 +40,8 @@ CASES = {
     "clipping": (even(output=lambda r: np.minimum(r.output, 1.5)), "stays at its largest value, 1.5, for"),
     "aliasing": (record(1.0, time=np.arange(60) / 12.0), "only 12 samples a cycle"),
     "jitter": (even(time=lambda r: TIME + 2e-4 * np.random.default_rng(1).random(TIME.size)), "--rate HZ"),
+    "an output that never moves": (even(output=lambda r: 3.0 + 0.0 * r.output), "the output is 3 throughout"),
+    "exchanged columns": (even(input=lambda r: r.output, output=lambda r: r.input), "may be exchanged"),
     "one amplitude": (even(), "one amplitude only (5)"),
     "one frequency": (record(), "one frequency only (about 2"),
 }
@@ -53,7 +55,9 @@ def test_it_is_told(name):
 
 
 def test_good_records_are_not_scolded():
-    assert oddities([record(2.0, "slow"), record(6.0, "fast")]) == ()
+    good = [record(2.0, "slow"), record(6.0, "fast")]
+    assert oddities(good) == ()
+    assert oddities([replace(one, output=-one.output) for one in good]) == ()
 
 
 def test_a_record_without_output_or_movement_is_looked_at():

@@ -21,6 +21,7 @@ from hysteresis_bench.diagnosis.findings.ties import tie
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.accuracy import Accuracy
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
+from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
 from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
 
 UNITS = {"time": "s", "input": "V", "output": "um"}
@@ -110,6 +111,21 @@ def test_the_page_stands_alone_and_escapes(tmp_path, diagnosis):
     assert {path.name for path in (tmp_path / "figures").iterdir()} >= {"waterfall.svg", "loop-1-other-before.svg"}
     identifiers = re.findall(r'\bid="([^"]+)"', page)
     assert len(identifiers) == len(set(identifiers))
+
+
+def test_a_figure_for_a_paper(tmp_path, diagnosis):
+    write_diagnosis(tmp_path, diagnosis)
+    draw_diagnosis(tmp_path / "d.svg", tmp_path)
+    drawn = (tmp_path / "d.svg").read_text(encoding="utf-8")
+    for words in ("+ input-lag", "noise in the data", "RMSE (μm)", "other (held-out)", "Input (V)", "Time (s)"):
+        assert words in drawn, words
+    before, after = (replace(stage, held_out=None) for stage in (diagnosis.before, diagnosis.after))
+    fitted = diagnosis.responses[diagnosis.responses["role"] == "fitted"]
+    write_diagnosis(tmp_path, replace(diagnosis, before=before, after=after, responses=fitted))
+    draw_diagnosis(tmp_path / "d.svg", tmp_path)
+    drawn = (tmp_path / "d.svg").read_text(encoding="utf-8")
+    assert "slow (fitted)" in drawn
+    assert "not fitted" not in drawn
 
 
 def test_nothing_missing_is_told_without_advice_or_added_parameters(tmp_path, diagnosis):

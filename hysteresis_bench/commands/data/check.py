@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.outputs import check_file, force_option
+from hysteresis_bench.commands.outputs import check_file, check_plot, force_option, plot_option
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
 @data_options
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="Write the records as a plain CSV.")
-@click.option("--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw them: .pdf, .svg or .png.")
+@plot_option
 @json_option
 @force_option
 def check(
@@ -31,13 +31,11 @@ def check(
     """Tell how DATA ... are read, draw them, and warn of what a model would take for the actuator."""
     from hysteresis_bench.data.data_files import read_data, write_csv
     from hysteresis_bench.inspection.oddities import oddities
-    from hysteresis_bench.report.shared.papers import check_figure, draw_records
+    from hysteresis_bench.report.shared.papers import draw_records
 
-    for path in (out, plot):
-        if path is not None:
-            check_file(path, data, force)
-    if plot is not None:
-        check_figure(plot)
+    if out is not None:
+        check_file(out, data, force)
+    check_plot(plot, data, force)
     dataset = read_data(data, output_needed=False, layout=layout)
     warnings = oddities(dataset.records)
     if lacking := [record.name for record in dataset.records if record.output is None]:

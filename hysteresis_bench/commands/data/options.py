@@ -66,6 +66,10 @@ def _layout(**given: Any) -> Any:
 data_options = packing(OPTIONS, NAMES, "layout", _layout)
 """How files are read, as `layout`."""
 
+OF_A_REFERENCE = tuple(name for name in NAMES if name not in ("input", "rate"))
+reference_options = packing([OPTIONS[NAMES.index(name)] for name in OF_A_REFERENCE], OF_A_REFERENCE, "layout", _layout)
+"""How a file of a wanted output is read, as `layout`."""
+
 preparation_options = packing(PREPARATION, PREPARED, "prepared", dict)
 """What is done to every record, as `prepared`: fields of FitOptions and of DiagnosisOptions."""
 

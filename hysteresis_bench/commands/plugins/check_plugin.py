@@ -30,7 +30,9 @@ FAILED = 1
 @click.command("check-plugin")
 @click.argument("name")
 @click.option("--kind", type=click.Choice(list(SINGULAR)), help="Where a name is of several kinds.")
-@click.option("--timeout", type=float, default=120.0, show_default=True, help="Seconds that a test may take.")
+@click.option(
+    "--timeout", type=float, default=120.0, show_default=True, help="Seconds a test, compilation not counted."
+)
 @json_option
 def check_plugin(name: str, kind: str | None, timeout: float, as_json: bool) -> None:
     """Test whether the plugin NAME keeps its contract; exit code 1 where it does not."""
@@ -55,13 +57,14 @@ def _check(console: Console, word: str, kind: registry.Kind, name: str, timeout:
     from rich.markup import escape
 
     from hysteresis_bench import registry
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.testing.check import BROKEN, check
 
     plugin = registry.load(kind, name)
     console.print(f"[bold]{word} {escape(name)}[/] of {escape(plugin.distribution)} {escape(plugin.version)}")
-    verdicts = []
-    for verdict in check(kind, name, timeout):
-        verdicts.append(verdict)
+    with steps_told("check-plugin") as on_step:
+        verdicts = list(check(kind, name, timeout, on_step))
+    for verdict in verdicts:
         if verdict.status == BROKEN:
             console.print(f"  [red]broken[/]  {escape(verdict.promise)}", highlight=False)
             console.print(f"          [red]{escape(verdict.reason)}[/]", highlight=False, soft_wrap=True)

@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.compensation import Forward
 from hysteresis_bench.control.trajectories.driven import Driven, drive
 from hysteresis_bench.data.data_files import read_columns, time_faults
+from hysteresis_bench.data.layout import AS_THEY_SAY, Layout
 from hysteresis_bench.data.units import in_units
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
@@ -41,14 +42,17 @@ class Followed:
         return float(np.max(error, initial=0.0)) / (float(np.ptp(self.output)) or 1.0)
 
 
-def read_trajectory(path: Path, units: Mapping[str, str]) -> Dataset:
+def read_trajectory(path: Path, units: Mapping[str, str], layout: Layout = AS_THEY_SAY) -> Dataset:
     """Time and wanted output of a CSV with the columns `time` and `output` (or `reference`), in a model's units.
 
     The wanted output stands in a record's `input` as in its `output`, for what asks whether a loop is closed.
+    layout : what the file does not say itself
     Raises UserError naming file, row and column.
     """
-    name = REFERENCE if REFERENCE in read_columns(path, ["time"]).numbers else "output"
-    columns = read_columns(path, ["time", name])
+    timed = ["time"] if layout.rate is None else []
+    other = layout.output is None and REFERENCE in read_columns(path, timed, layout).numbers
+    name = REFERENCE if other else "output"
+    columns = read_columns(path, [*timed, name], layout)
     time, wanted = columns.numbers["time"], columns.numbers[name]
     if faults := time_faults(time, columns.lines) if time.size > 1 else ["needs at least 2 samples."]:
         raise UserError(str(path), faults)
@@ -58,12 +62,15 @@ def read_trajectory(path: Path, units: Mapping[str, str]) -> Dataset:
     return known.map(lambda one: Record(one.time, one.output, one.output, one.name, units))
 
 
-def follow(fitted: FittedModel, forward: Forward, path: Path, limit: float) -> Followed:
-    """The input for the trajectory of a CSV, prepared as the fit's records were; limit : of the input, to either side.
+def follow(
+    fitted: FittedModel, forward: Forward, path: Path, limit: float, *, layout: Layout = AS_THEY_SAY
+) -> Followed:
+    """The input for the trajectory of a CSV, prepared as the fit's records were.
 
+    limit : of the input, to either side;  layout : what the file does not say itself
     Raises UserError naming file, row and column; ValueError where no input is found.
     """
-    trajectory = read_trajectory(path, fitted.units)
+    trajectory = read_trajectory(path, fitted.units, layout)
     (record,) = trajectory.records
     passes = fitted.preparation.settle if is_closed(record) else 0
     settled = record.settled(passes) if passes else record
@@ -71,7 +78,21 @@ def follow(fitted: FittedModel, forward: Forward, path: Path, limit: float) -> F
     driven = drive(fitted, forward, settled.time, settled.output, limit)
     needed, reached, cut = (each[-record.time.size :] for each in (driven.input, driven.reached, driven.cut))
     notes = (*trajectory.notes, *fitted.preparation.words([record], fitted.units["time"]))
-    return Followed(record.time, needed, record.measured, cut, reached, (*notes, *_told(driven)))
+    return Followed(
+        record.time, needed, record.measured, cut, reached, (*notes, *_told(driven), *_beyond(fitted, needed))
+    )
+
+
+def _beyond(fitted: FittedModel, needed: Array) -> Iterator[str]:
+    """What the fit cannot vouch for; needed : (samples,) input"""
+    low, high = fitted.data.get("ranges", {}).get("input", (-np.inf, np.inf))
+    room = 1e-6 * (high - low) if np.isfinite(high - low) else 0.0
+    share = float(np.mean((needed < low - room) | (needed > high + room)))
+    if share > 0.0:
+        yield (
+            f"{100.0 * share:.2g} % of the samples need an input beyond the fitted ones ({low:.4g} to {high:.4g}): "
+            "there the model guesses."
+        )
 
 
 def _told(driven: Driven) -> Iterator[str]:

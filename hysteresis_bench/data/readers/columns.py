@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import pandas as pd
@@ -22,11 +22,13 @@ class Named:
     """A sheet whose columns have plain names, `time`, `input` and `output` among them.
 
     units : the ones that are stated, by name;  sources : of a role, what its column is called in the file
+    notes : what was left out, as clauses
     """
 
     cells: pd.DataFrame
     units: dict[str, str]
     sources: dict[str, str]
+    notes: tuple[str, ...] = ()
 
 
 def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> Named:
@@ -60,7 +62,9 @@ def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> 
     taken: dict[int, list[str]] = {}
     for role, position in roles.items():
         taken.setdefault(position, []).append(role)
-    faults += [f'column "{names[n]}" cannot be {" and ".join(of)}.' for n, of in taken.items() if len(of) > 1]
+    faults += [
+        f'column {n + 1}, called "{names[n]}", cannot be {" and ".join(of)}.' for n, of in taken.items() if len(of) > 1
+    ]
     if faults:
         raise UserError(where, faults)
     back = {position: role for role, position in roles.items()}
@@ -68,13 +72,21 @@ def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> 
     shadowed = [n for n, name in plain.items() if n not in back and name in ROLES and _given(layout, name)]
     for n in shadowed:  # a column of that name that the user passed over
         del plain[n]
+    doubled = sorted({name for name in plain.values() if [*plain.values()].count(name) > 1})
+    if faults := [_doubled(name, plain) for name in doubled if name in (*ROLES, *required)]:
+        raise UserError(where, faults[:KEEP_FAULTS])
+    plain = {n: name for n, name in plain.items() if name not in doubled}
+    notes = [f"left out, because several columns are called so: {', '.join(doubled[:LISTED])}"] if doubled else []
     every = list(plain.values())
-    doubled = sorted({name for name in every if every.count(name) > 1})
-    if doubled:
-        raise UserError(where, [f'two columns are called "{name}".' for name in doubled[:KEEP_FAULTS]])
     cells = sheet.cells[list(plain)].set_axis(pd.Index(every), axis=1)
     sources = {role: headers[position].strip() or f"column {position + 1}" for role, position in roles.items()}
-    return Named(cells, {plain[n]: unit for n, unit in units.items() if n in plain}, sources)
+    return Named(cells, {plain[n]: unit for n, unit in units.items() if n in plain}, sources, tuple(notes))
+
+
+def _doubled(name: str, plain: Mapping[int, str]) -> str:
+    places = [str(n + 1) for n, other in plain.items() if other == name]
+    which = " or ".join(f"--{name} {place}" for place in places)
+    return f'two columns are called "{name}".' + (f" Say which it is with {which}." if name in ROLES else "")
 
 
 def _given(layout: Layout, role: str) -> bool:
@@ -99,12 +111,16 @@ def _position(role: str, asked: str | None, names: Sequence[str], headers: Seque
     return None
 
 
+def _counted(names: Sequence[str]) -> str:
+    return f"{len(names)} column{'s' if len(names) > 1 else ''}"
+
+
 def _missing(role: str, asked: str | None, names: Sequence[str], headed: bool) -> str:
     """The sentence on a column that is not found, with the option that helps."""
     known = nearest(asked or role, names[:LISTED])
     if not headed:
         return (
-            f'no column "{asked or role}": there is no header, only {len(names)} columns. '
+            f'no column "{asked or role}": there is no header, only {_counted(names)}. '
             f"Give its position with --{role} 1 to {len(names)}" + (", or --rate HZ." if role == "time" else ".")
         )
     helps = f" Say which it is with --{role} NAME." if role in ROLES else ""

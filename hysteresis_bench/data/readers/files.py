@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import stat
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
@@ -20,8 +20,18 @@ from hysteresis_bench.data.readers.sheet import TOP, Sheet, top_of, units_in
 from hysteresis_bench.data.readers.text import read_text
 from hysteresis_bench.errors import UserError, nearest
 
-OLD = {".xls": "save it as .xlsx", ".ods": "save it as .xlsx", ".parquet": "save it as CSV", ".tdms": "save it as CSV"}
+OLD = {
+    **dict.fromkeys((".xls", ".xlsb", ".ods"), "save it as .xlsx"),
+    **dict.fromkeys((".parquet", ".tdms", ".json", ".html", ".xml", ".wav", ".rds", ".sav"), "save it as CSV"),
+    **dict.fromkeys((".zip", ".gz", ".bz2", ".xz", ".7z", ".rar", ".tar"), "unpack it first"),
+    **dict.fromkeys((".pkl", ".pickle", ".joblib"), "save plain arrays as .npz"),
+    ".pdf": "save what its tables were made from as CSV",
+}
 DATA = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".mat", ".npz", ".npy", ".h5", ".hdf5")
+OBJECTS = "Object arrays cannot be loaded"
+"""How numpy says that an array holds no numbers."""
+MATLABS_OWN, DEEPEST = ("#refs#", "#subsystem#"), 8
+"""Groups of MATLAB 7.3 that hold what others point at; levels of groups that are looked into."""
 MOST_COLUMNS = 64
 """Columns of an array beyond which it is no table of samples."""
 
@@ -123,11 +133,24 @@ def _spreadsheet(path: Path, layout: Layout) -> list[Sheet]:
 def _numpy(path: Path) -> Mapping[str, Any]:
     try:
         stored = np.load(path, allow_pickle=False)
-        return {"": stored} if isinstance(stored, np.ndarray) else {name: stored[name] for name in stored.files}
+        if isinstance(stored, np.ndarray):
+            return {"": stored}
+        found = {name: _unless_of_objects(stored, name) for name in stored.files}
+        return {name: array for name, array in found.items() if array is not None}
     except OSError:
         raise
     except Exception as error:  # a damaged archive raises errors of any type
-        raise UserError(str(path), f"cannot be read as arrays: {error}.") from None
+        told = str(error) if OBJECTS not in str(error) else "it holds objects. Save plain arrays of numbers"
+        raise UserError(str(path), f"cannot be read as arrays: {told}.") from None
+
+
+def _unless_of_objects(stored: Any, name: str) -> Any:
+    try:
+        return stored[name]
+    except ValueError as error:
+        if OBJECTS in str(error):
+            return None
+        raise
 
 
 def _matlab(path: Path) -> Mapping[str, Any]:
@@ -145,20 +168,27 @@ def _matlab(path: Path) -> Mapping[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """A MATLAB structure as a mapping."""
+    """A MATLAB structure as a mapping; of cells and of an array of structures, a mapping by number."""
     if hasattr(value, "_fieldnames"):
         return {name: _plain(getattr(value, name)) for name in value._fieldnames}
+    if isinstance(value, np.ndarray) and value.dtype == object:
+        return {str(number): _plain(one) for number, one in enumerate(value.ravel(order="F"), start=1)}
     return value
 
 
 def _hdf5(path: Path) -> Mapping[str, Any]:
     h5py = _library("h5py", path)
 
-    def contents(group: Any) -> dict[str, Any]:
+    def contents(items: Iterable[tuple[str, Any]], depth: int = 0) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        for name, item in group.items():
+        for name, item in items:
+            if name in MATLABS_OWN or depth > DEEPEST:
+                continue
             if isinstance(item, h5py.Group):
-                found[name] = contents(item)
+                found[name] = contents(item.items(), depth + 1)
+            elif h5py.check_ref_dtype(item.dtype) is h5py.Reference:  # MATLAB's cells
+                pointed = (item.file[one] for one in np.ravel(item[()], order="F") if one)
+                found[name] = contents(((str(n), one) for n, one in enumerate(pointed, start=1)), depth + 1)
             elif item.dtype.names:
                 found[name] = {field: item[field] for field in item.dtype.names}
             else:
@@ -169,7 +199,7 @@ def _hdf5(path: Path) -> Mapping[str, Any]:
 
     try:
         with h5py.File(path, "r") as file:
-            return contents(file)
+            return contents(file.items())
     except UserError:
         raise
     except Exception as error:  # a damaged file raises errors of any type
@@ -189,6 +219,8 @@ def _of_arrays(stored: Mapping[str, Any], prefix: str = "") -> list[Sheet]:
         if array.dtype.names:
             sheets += _of_arrays({field: array[field] for field in array.dtype.names}, f"{whole}/" if whole else "")
             continue
+        if array.dtype.kind in "mM" and array.size:
+            array, name = (array - array.ravel()[0]) / np.timedelta64(1, "s"), f"{name} [s]"
         if array.dtype.kind not in "fiub":
             continue
         array = np.squeeze(array)

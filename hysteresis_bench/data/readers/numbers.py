@@ -11,13 +11,23 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 
-MISSING = frozenset({"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---"})
-NUMBER = re.compile(r"[-+−]?(\d[\d.,'’]*|[.,]\d+)([eEdD][-+]?\d+)?")
+MISSING = frozenset(
+    {"", "nan", "-nan", "na", "n/a", "#n/a", "null", "none", "-", "--", "---", "?"}
+    | {f"{sign}1.#{word}" for sign in ("", "-") for word in ("ind", "qnan", "snan")}
+)
+NOT_A_NUMBER, OVERFLOW = 9.91e37, 9.9e37
+"""What instruments write in the place of a reading that there is none of, and of one beyond their range (SCPI 1999)."""
+BLANKS = "\u00a0\u2009\u202f"
+NUMBER = re.compile(rf"[-+−]?(\d([\d.,'’]|[{BLANKS}](?=\d\d\d))*|[.,]\d+)([eEdD][-+]?\d+)?")
 COMMA_GROUPS = re.compile(r"[-+−]?[1-9]\d{0,2}(,\d{3})+")
 POINT_GROUPS = re.compile(r"[-+−]?[1-9]\d{0,2}(\.\d{3})+")
-GROUPS = {",": re.compile(r"(?<=\d)[.'’](?=\d{3}(\D|$))"), ".": re.compile(r"(?<=\d)[,'’](?=\d{3}(\D|$))")}
+GROUPS = {mark: re.compile(rf"(?<=\d)[{other}'’{BLANKS}](?=\d{{3}}(\D|$))") for mark, other in ((",", "."), (".", ","))}
 """What may stand between thousands, by the decimal mark."""
-CLOCK = re.compile(r"(\d{1,3}):(\d\d)(?::(\d\d(?:[.,]\d+)?))?")
+CLOCK = re.compile(r"(\d{1,3}):(\d\d)(?::(\d\d(?:[.,]\d+)?))?(?: ?([AP])M)?", re.IGNORECASE)
+MINUTES = re.compile(r"(\d{1,4}):(\d\d[.,]\d+)")
+DAY, HALF, HOUR = 86400.0, 43200.0, 3600.0
+DOTTED = re.compile(r"(\d{1,2})\.(\d{1,2})\.(\d{4})(?= |$)")
+"""A date with dots, whose first number is the day."""
 ISO = re.compile(r"\d{4}-\d\d-\d\d([T ]\d\d:\d\d(:\d\d([.,]\d+)?)?)?(Z|[-+]\d\d:?\d\d)?")
 
 
@@ -29,13 +39,18 @@ def looks_like_a_number(cell: str) -> bool:
     """Whether a cell is a number in any notation, missing, or a time of day."""
     text = cell.strip()
     return bool(
-        text.lower() in MISSING or NUMBER.fullmatch(text) or CLOCK.fullmatch(text) or ISO.fullmatch(text)
+        text.lower() in MISSING
+        or NUMBER.fullmatch(text)
+        or any(clock.fullmatch(_iso(text)) for clock in (CLOCK, MINUTES, ISO))
     ) or math.isinf(number(text))
 
 
 def is_missing(cell: object) -> bool:
     """Whether a cell says that there is no number."""
-    return math.isnan(cell) if isinstance(cell, float) else str(cell).strip().lower() in MISSING
+    if isinstance(cell, float):
+        return math.isnan(cell) or cell == NOT_A_NUMBER
+    text = str(cell).strip().lower()
+    return text in MISSING or (text.endswith("37") and number(text) == NOT_A_NUMBER)
 
 
 def number(cell: object, decimal: str = ".") -> float:
@@ -101,12 +116,17 @@ def decimal_mark(cells: Iterable[tuple[int, str]]) -> str:
 
 
 def seconds(cells: pd.Series) -> Array | None:
-    """Times of day or dates in ISO 8601 as seconds after the first, (samples,); None where a cell is neither."""
-    texts = [str(cell).strip().replace(",", ".") for cell in cells]
-    clocks = [CLOCK.fullmatch(text) for text in texts]
-    if all(clocks):
-        found = [3600 * int(c[1]) + 60 * int(c[2]) + float(c[3] or 0) for c in clocks if c]
-        return np.array([round(one - found[0], 9) for one in found])
+    """Times of day or dates as seconds after the first, (samples,); None where a cell is neither.
+
+    Times of day may go past midnight; dates are those of ISO 8601, or with dots.
+    """
+    texts = [_iso(str(cell).strip().replace(",", ".")) for cell in cells]
+    for clock in (CLOCK, MINUTES):
+        if all(found := [clock.fullmatch(text) for text in texts]):
+            times = np.array([_of_day(one) for one in found if one])
+            days = np.concatenate(([0.0], np.cumsum(np.diff(times) < -HALF)))
+            since: Array = np.round(times - times[0] + DAY * days, 9)
+            return since
     if all(ISO.fullmatch(text) for text in texts):
         try:
             stamps = pd.to_datetime(pd.Series(texts), format="ISO8601", utc=True)
@@ -114,3 +134,16 @@ def seconds(cells: pd.Series) -> Array | None:
             return None
         return np.asarray((stamps - stamps.iloc[0]).dt.total_seconds(), dtype=float)
     return None
+
+
+def _iso(text: str) -> str:
+    """A date with dots as one of ISO 8601; anything else as it is."""
+    return DOTTED.sub(lambda date: f"{date[3]}-{int(date[2]):02d}-{int(date[1]):02d}", text)
+
+
+def _of_day(clock: re.Match[str]) -> float:
+    """Seconds of hours, minutes and seconds, with a half of the day or without, or of minutes and seconds."""
+    if clock.re is MINUTES:
+        return 60.0 * int(clock[1]) + float(clock[2])
+    hours = int(clock[1]) % 12 + 12 * (clock[4] in "pP") if clock[4] else int(clock[1])
+    return HOUR * hours + 60.0 * int(clock[2]) + float(clock[3] or 0)

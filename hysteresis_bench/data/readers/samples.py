@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -13,7 +14,14 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.csv_files import unguarded
 from hysteresis_bench.data.layout import ROLES, Layout
 from hysteresis_bench.data.readers.columns import KEEP_FAULTS, Named, named
-from hysteresis_bench.data.readers.numbers import is_missing, number, seconds
+from hysteresis_bench.data.readers.numbers import (
+    NOT_A_NUMBER,
+    OVERFLOW,
+    is_missing,
+    looks_like_a_number,
+    number,
+    seconds,
+)
 from hysteresis_bench.data.readers.sheet import Sheet
 from hysteresis_bench.errors import UserError
 
@@ -25,6 +33,8 @@ GAPS = 0.2
 """Share of rows without a number that are gaps; more of them are a fault of the file."""
 FEW = 5
 """Lines that a footer, or a header in the middle, has at most."""
+MEASURED = re.compile(r"[-+]?[\d.,]+([eE][-+]?\d+)? ?[A-Za-z%°µμ/]+[\w/²³]*")
+"""A number with a unit behind it."""
 SHOWN = 4
 """Gaps that a sentence lists."""
 
@@ -72,7 +82,10 @@ def numbers_of(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]
     if faults:
         raise UserError(where, faults[:KEEP_FAULTS])
     lines = cells.index.to_numpy()
-    clauses = (*sheet.notes, *notes)
+    runs = [unguarded(run) for run in cells["run"][kept].map(str)] if "run" in cells else None
+    if runs is None and "time" in numbers and (runs := _blocks(numbers["time"][kept], lines[kept])):
+        notes.append("parted by empty lines into records")
+    clauses = (*sheet.notes, *found.notes, *notes)
     told = [f"{where}: {', '.join(clauses)}."] if clauses else []
     gaps = _gaps(kept)
     if gaps:
@@ -81,7 +94,7 @@ def numbers_of(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]
         lines[kept],
         {name: values[kept] for name, values in numbers.items()},
         units,
-        [unguarded(run) for run in cells["run"][kept].map(str)] if "run" in cells else None,
+        runs,
         sheet.name,
         _understood(found, units, layout, gaps),
         tuple(told),
@@ -98,7 +111,8 @@ def _numbers(
     holes: list[str] = []
     for name in cells.columns.drop("run", errors="ignore"):
         values = np.array([number(cell, decimal) for cell in cells[name]])
-        good = np.abs(values) <= LARGEST  # False for what is no number, too
+        values[values == NOT_A_NUMBER] = np.nan
+        good = (np.abs(values) <= LARGEST) & (np.abs(values) != OVERFLOW)  # False for what is no number, too
         needed = name in required or name in ROLES
         if not (needed or np.mean(good) > 0.5):  # a further column of text, such as a remark, is left out
             continue
@@ -115,24 +129,45 @@ def _numbers(
             continue
         wrong = np.nonzero(~good & ~missing if needed and few else ~good)[0]
         if wrong.size:
-            faults.append(_fault(cells[name], wrong, decimal))
+            faults.append(_fault(cells, name, wrong, decimal))
     return numbers, empty, faults, [f"left out, because cells are empty: {', '.join(holes)}"] if holes else []
 
 
-def _fault(cells: pd.Series, bad: Array, decimal: str) -> str:
-    text = str(cells.iloc[bad[0]]).strip()
+def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str) -> str:
+    cells = table[name]
+    text, value = str(cells.iloc[bad[0]]).strip(), number(cells.iloc[bad[0]], decimal)
     shown = f'"{text[:40]}"' if text else "empty"
-    too_large = math.isfinite(number(cells.iloc[bad[0]], decimal))
-    why = f"is too large to work with, beyond {LARGEST:g}" if too_large else "is not a finite number"
+    too_large = math.isfinite(value)
+    why = "is not a finite number"
+    if too_large:
+        why = f"is too large to work with, beyond {LARGEST:g}"
+        why = "is what instruments write for an overflow" if abs(value) == OVERFLOW else why
     more = f" ({bad.size} such values in this column)" if bad.size > 1 else ""
+    measured = [str(table[role].iloc[bad[0]]) for role in ROLES if role in table]
     helps = ""
-    if not too_large and decimal == "." and math.isfinite(number(text, ",")):
+    if bad.size == len(cells) and not text:
+        helps = " The column is empty; where a spreadsheet's formulas have no values yet, open it there and save it."
+    elif not too_large and decimal == "." and math.isfinite(number(text, ",")):
         helps = " Is it a decimal comma? Say so with --decimal ,"
-    elif not too_large and cells.name == "time" and bad.size <= FEW:
+    elif not too_large and decimal == "," and math.isfinite(number(text, ".")):
+        helps = " Is it a decimal point? Say so with --decimal ."
+    elif not too_large and MEASURED.fullmatch(text):
+        helps = " Take the unit out of the cells, into the header."
+    elif bad.size <= FEW and (name == "time" or not any(map(looks_like_a_number, measured))):
         helps = " If the line is no sample, take it out, or begin it with #."
-    elif not too_large and cells.name == "time":
+    elif name == "time":
         helps = " Give --rate HZ in place of the time."
-    return f'row {cells.index[bad[0]]}, column "{cells.name}": {shown} {why}{more}.{helps}'
+    elif bad.size <= GAPS * len(cells):
+        helps = " Empty the cell where there was no reading, and its sample is left out."
+    return f'row {cells.index[bad[0]]}, column "{name}": {shown} {why}{more}.{helps}'
+
+
+def _blocks(time: Array, lines: Array) -> list[str] | None:
+    """Names of records that empty lines part, where the time begins anew at every one of them; None without any."""
+    back = np.diff(time) <= 0.0
+    if not back.any() or np.any(np.diff(lines)[back] < 2):
+        return None
+    return [str(1 + number) for number in np.concatenate(([0], np.cumsum(back)))]
 
 
 def _gaps(kept: Array) -> list[tuple[int, int]]:

@@ -15,9 +15,13 @@ from hysteresis_bench.data.units import is_unit
 
 SQUARE = re.compile(r"(?P<name>[^\[\]]+)(?:\[(?P<unit>[^\[\]]*)\])?")
 ROUND = re.compile(r"(?P<name>[^()]*[^()\s])\s*\((?P<unit>[^()]+)\)")
+SPELLED_OUT = re.compile(r"(?P<name>.*\S)\s+(?:/|in)\s+(?P<unit>\S+)")
+TIMED = re.compile(r"(?P<name>t|time|zeit)[_:.-](?P<unit>[numµμ]?s|m?sec|min|h)", re.IGNORECASE)
 BRACKETS = re.compile(r"[\[(](.*)[\])]")
 LONGEST = 200
 """Characters of a column's name."""
+FEW = 3
+"""Rows by which data are told from a line of a preamble."""
 TOP = 100
 """Rows among which a header is looked for."""
 
@@ -50,16 +54,33 @@ class Top:
 
 
 def parted(header: str) -> tuple[str, str | None]:
-    """`Voltage (V)` -> ("Voltage", "V"); a unit in round brackets must be one that is known."""
+    """`Voltage (V)` -> ("Voltage", "V"), as `Voltage / V`, `Voltage in V` and `time_ms`; where a unit stands in no
+    square brackets, it must be one that is known."""
     text = unguarded(header.strip())
     if match := SQUARE.fullmatch(text):
         unit = (match["unit"] or "").strip()
         if unit:
             return match["name"].strip(), unit
         text = match["name"].strip()
-    if (match := ROUND.fullmatch(text)) and is_unit(match["unit"]):
-        return match["name"].strip(), match["unit"].strip()
+    for form in (ROUND, SPELLED_OUT, TIMED):
+        if (match := form.fullmatch(text)) and is_unit(match["unit"]):
+            return match["name"].strip(), match["unit"].strip()
     return text, None
+
+
+def together(sheets: Sequence[Sheet]) -> Sheet:
+    """The columns of all sheets of the commonest length as one sheet, each with its sheet's name before its own."""
+    lengths = [len(sheet.cells) for sheet in sheets]
+    length = max(lengths, key=lengths.count)
+    alike = [sheet for sheet in sheets if len(sheet.cells) == length]
+    headers = []
+    for sheet in alike:
+        names = sheet.headers or tuple(str(number + 1) for number in range(sheet.cells.shape[1]))
+        headers += [f"{sheet.name}/{name}".lstrip("/") for name in names]
+    cells = pd.concat([sheet.cells.reset_index(drop=True) for sheet in alike], axis=1)
+    cells.columns = pd.RangeIndex(cells.shape[1])
+    cells.index = alike[0].cells.index
+    return Sheet("", tuple(headers), (), cells, alike[0].decimal)
 
 
 def top_of(rows: Sequence[Sequence[str]], wanted: Iterable[str | None]) -> Top:
@@ -72,10 +93,12 @@ def top_of(rows: Sequence[Sequence[str]], wanted: Iterable[str | None]) -> Top:
         hits = sum(bool(known & plain) for known in names.values()) + len(asked & plain)
         if hits >= min(2, len(row)):
             return _with_units(rows, index)
-    first = next((index for index, row in enumerate(rows) if _is_data(row)), None)
+    first = next((index for index in range(len(rows)) if _begins_data(rows[index : index + FEW])), None)
     if first is None:
         return _with_units(rows, 0)
     above = [index for index in range(first) if len(rows[index]) == len(rows[first])]
+    if first and len(rows[first - 1]) > len(rows[first]) and _is_text(rows[first - 1]):  # names for more than there is
+        above = [*above, first - 1]
     if not above:
         return Top(None, None, first)
     last = above[-1]
@@ -103,6 +126,11 @@ def _with_units(rows: Sequence[Sequence[str]], header: int) -> Top:
     if below is not None and is_unit_row(rows[below]):
         return Top(header, below, below + 1)
     return Top(header, None, header + 1)
+
+
+def _begins_data(rows: Sequence[Sequence[str]]) -> bool:
+    """Whether these rows are data, and no lone line of a preamble such as `Samples 400 400`."""
+    return all(_is_data(row) for row in rows) and len({len(row) for row in rows[:2]}) == 1
 
 
 def _is_data(row: Sequence[str]) -> bool:

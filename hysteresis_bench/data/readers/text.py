@@ -21,6 +21,11 @@ COMMENT = re.compile(r"\s*(#|%|//|!)")
 CANDIDATES = ("\t", ";", "|", ",", " ")
 """In the order in which they are believed where two do as well."""
 NAMES = {"\t": "tabs", ";": "semicolons", "|": "bars", ",": "commas", " ": "blanks"}
+PADDING, CONTROL = b"\0\x1a\r\n", re.compile(rb"[\0-\x08\x0e-\x1f]")
+"""Bytes that old programs and loggers leave at the end of a file; bytes that no text has."""
+MARKUP = re.compile(r"\s*(<[!?A-Za-z]|\{\s*[\"}]|\[\s*[{\[])")
+SAMPLE = 2000
+"""Bytes by which an encoding is told."""
 MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codecs.BOM_UTF16_BE, "utf-16"))
 
 
@@ -29,7 +34,9 @@ def read_text(path: Path, layout: Layout) -> Sheet:
     text, notes = _decoded(path)
     lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
     if not any(line.strip() for line in lines):
-        raise UserError(str(path), "cannot be read as CSV: No columns to parse from file.")
+        raise UserError(str(path), "is empty.")
+    if MARKUP.match(text):
+        raise UserError(str(path), "cannot be read as CSV: it is JSON, HTML or XML; save it as CSV.")
     comments = [index for index, line in enumerate(lines) if COMMENT.match(line) and not _is_header(line, layout)]
     plain = [index for index in range(len(lines)) if lines[index].strip() and index not in set(comments)]
     if not plain:
@@ -39,6 +46,10 @@ def read_text(path: Path, layout: Layout) -> Sheet:
     rows = [_cells(lines[index], mark) for index in head]
     top = top_of(rows, (layout.time, layout.input, layout.output))
     header = () if top.header is None else tuple(rows[top.header])
+    if top.header is not None and mark == " " and top.data < len(rows):
+        width = len(rows[top.data])
+        if len(header) > width or not header:
+            header = _names_with_blanks(lines[head[top.header]], width)
     units = () if top.units is None else units_in(rows[top.units])
     first = plain[top.data] if top.data < len(plain) else len(lines)
     if not header:
@@ -67,12 +78,16 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
                 return raw.decode(encoding), [] if encoding == "utf-8-sig" else ["UTF-16 text"]
             except UnicodeDecodeError:
                 raise UserError(str(path), "cannot be read as CSV: its text is damaged.") from None
-    if b"\0" in raw:
+    if b"\0" in raw and not raw[1:SAMPLE:2].strip(b"\0"):
+        return raw[: len(raw) // 2 * 2].decode("utf-16-le", errors="replace"), ["UTF-16 text"]
+    text = raw.rstrip(PADDING)
+    notes = ["zeros behind the end left out"] if text and b"\0" in raw[len(text) :] else []
+    if CONTROL.search(text):
         raise UserError(str(path), "cannot be read as CSV: it is not text. Known: text, .xlsx, .mat, .npz, .npy, .h5.")
     try:
-        return raw.decode("utf-8"), []
+        return text.decode("utf-8"), notes
     except UnicodeDecodeError:
-        return raw.decode("cp1252", errors="replace"), ["read as Windows text (cp1252), since it is not UTF-8"]
+        return text.decode("cp1252", errors="replace"), [*notes, "read as Windows text (cp1252), since it is not UTF-8"]
 
 
 def _is_header(line: str, layout: Layout) -> bool:
@@ -116,9 +131,20 @@ def _header_in_comment(
     if not comments or data >= len(rows):
         return ()
     bare = COMMENT.sub("", lines[comments[-1]], count=1).strip()
-    for cells in (_cells(bare, mark), re.split(r"\s{2,}|\t", bare), bare.split()):
-        if len(cells) == len(rows[data]) and not any(looks_like_a_number(cell) for cell in cells):
-            return tuple(cell.strip() for cell in cells)
+    cells = _cells(bare, mark)
+    if len(cells) == len(rows[data]) and not any(map(looks_like_a_number, cells)):
+        return tuple(cell.strip() for cell in cells)
+    return _names_with_blanks(bare, len(rows[data]))
+
+
+def _names_with_blanks(line: str, count: int) -> tuple[str, ...]:
+    """As many names as there are columns, parted by blanks, which may stand before a unit or within a name, too."""
+    line = line.strip()
+    joined = re.sub(r"\s+(?=[(\[])", "\0", line)  # a unit in brackets stays with its name
+    for cells in (line.split(), joined.split(), re.split(r"\s{2,}|\t", line), re.split(r"\s{2,}|\t", joined)):
+        names = tuple(cell.replace("\0", " ").strip() for cell in cells)
+        if len(names) == count and not any(map(looks_like_a_number, names)):
+            return names
     return ()
 
 

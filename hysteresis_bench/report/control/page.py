@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -24,6 +25,8 @@ PAGE, SCORES, RESPONSES = "control.html", "control.csv", "responses.csv"
 COLOURS = (*SERIES, MUTED)
 """Of the controllers, in their order."""
 
+FLOORS = ("Sensor noise, RMS", "One sample late, RMS")
+
 Parts = Mapping[str, pd.DataFrame]
 """Controller -> its run along one reference."""
 
@@ -36,20 +39,19 @@ def write_control(folder: Path, comparison: Comparison, model: str) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
     write_table(folder / SCORES, comparison.scores, digits=6)
     write_table(folder / RESPONSES, comparison.responses, digits=6)
-    conditions = comparison.conditions
+    conditions, volts = comparison.conditions, comparison.units["input"]
     errors = [_table(comparison, score) for score in ("t_rmse", "t_error")]
     meanings = [(name, MEANINGS[name]) for name in _names(comparison.scores)]
-    facts = [(key.replace("_", " ").capitalize(), f"{value}") for key, value in conditions.items()]
     sections = [
         Section("errors", "Tracking errors", [*errors, Terms(meanings)]),
         Section("tracking", "References and errors", [Figures(_pictures(folder, comparison))]),
         Section("effort", "Chatter and saturation", [_effort(comparison)]),
         Section("settings", "Tuning", [_settings(comparison)]),
-        Section("notes", "How it was made", [Bullets(comparison.notes), Terms(facts)]),
+        Section("notes", "How it was made", [Bullets(comparison.notes), Terms(_facts(comparison))]),
     ]
     page = Page(
         f"{model} in control of the rig {conditions['rig']}",
-        f"{conditions['rate']:g} samples a second, voltage within ±{conditions['voltage_limit']:g}",
+        f"{conditions['rate']:g} samples a second, input within ±{conditions['voltage_limit']:g} {volts}",
         sections,
         answer(comparison.scores),
         answers="Who follows best",
@@ -69,7 +71,9 @@ def print_control(comparison: Comparison, console: Console) -> None:
     errors = scores.pivot(index="controller", columns="reference", values="t_rmse")
     references = list(dict.fromkeys(scores["reference"]))
     unit = scores["unit"].iloc[0]
-    table = Terminal(title=f"T_rmse [{unit}]", title_justify="left", box=None, title_style="bold", pad_edge=False)
+    table = Terminal(
+        title=escape(f"T_rmse [{unit}]"), title_justify="left", box=None, title_style="bold", pad_edge=False
+    )
     table.add_column("controller", no_wrap=True)
     for reference in references:
         table.add_column(reference.replace("-", " "), justify="right")
@@ -87,7 +91,7 @@ def print_control(comparison: Comparison, console: Console) -> None:
 
 def answer(scores: pd.DataFrame) -> list[str]:
     """Who follows best, whether the compound controllers beat the feed-forward everywhere, and at what chatter."""
-    errors = scores.pivot(index="reference", columns="controller", values="t_rmse")
+    errors = scores.pivot_table(index="reference", columns="controller", values="t_rmse", sort=False)
     variation = scores.pivot(index="reference", columns="controller", values="variation_per_second")
     best = errors.idxmin(axis=1)
     wins = [f"{controller} on {listed(list(best.index[best == controller]))}" for controller in best.unique()]
@@ -104,12 +108,24 @@ def answer(scores: pd.DataFrame) -> list[str]:
     return sentences
 
 
+def _facts(comparison: Comparison) -> list[tuple[str, str]]:
+    """What it was run with, in words."""
+    found, units = comparison.conditions, comparison.units
+    return [
+        ("Rig", str(found["rig"])),
+        ("Rate", f"{number(found['rate'])} samples a second"),
+        (named("Amplitude of the references", units, "output"), number(found["amplitude"])),
+        (named("Limit of the input, either way", units, "input"), number(found["voltage_limit"])),
+        ("Seed", str(found["seed"])),
+    ]
+
+
 def _names(scores: pd.DataFrame) -> list[str]:
     return list(dict.fromkeys(scores["controller"]))
 
 
 def _table(comparison: Comparison, score: str) -> Table:
-    scores, unit = comparison.scores, comparison.scores["unit"].iloc[0]
+    scores = comparison.scores
     names = _names(scores)
     rows: list[list[str | Cell]] = []
     for reference, mine in scores.groupby("reference", sort=False):
@@ -118,8 +134,13 @@ def _table(comparison: Comparison, score: str) -> Table:
         floors = [Cell(number(mine[floor].iloc[0], 3), "quiet") for floor in ("noise_floor", "delay_floor")]
         rows.append([str(reference), *cells, *floors])
     what = {"t_rmse": "T_rmse, the RMS tracking error", "t_error": "T_error, the largest tracking error"}[score]
-    header = ["Reference", *names, "Sensor noise", "One sample late"]
-    return Table(f"{what} ({unit})", header, rows, note="Of the true displacement. The best of a row is in bold.")
+    header = ["Reference", *names, "Sensor noise, RMS", "One sample late, RMS"]
+    return Table(
+        named(what, comparison.units, "output"),
+        header,
+        rows,
+        note="Of the true displacement. The best of a row is in bold.",
+    )
 
 
 def _effort(comparison: Comparison) -> Table:
@@ -134,10 +155,10 @@ def _effort(comparison: Comparison) -> Table:
         ]
         for row in comparison.scores.itertuples()
     ]
-    unit, volts = comparison.scores["unit"].iloc[0], comparison.units["input"]
-    header = ["Reference", "Controller", f"Total variation ({volts})", f"A second ({volts}/s)",
-              f"RMSE the sensor sees ({unit})", "At the voltage limit"]  # fmt: skip
-    return Table("What it costs", header, rows, note="A chattering law moves the voltage far more than it needs to.")
+    units = comparison.units
+    header = ["Reference", "Controller", named("Total variation", units, "input"), f"A second ({units['input']}/s)",
+              named("RMSE the sensor sees", units, "output"), "At the limit"]  # fmt: skip
+    return Table("What it costs", header, rows, note="A chattering law moves the input far more than it needs to.")
 
 
 def _settings(comparison: Comparison) -> Table:
@@ -146,10 +167,9 @@ def _settings(comparison: Comparison) -> Table:
         for controller, settings in comparison.tuning.items()
         for setting, value in settings.items()
     ]
-    note = (
-        "convergence is C, layer the half width of the boundary layer; seconds and the output's unit. "
-        "The variants of a controller share its settings."
-    )
+    note = "In seconds, and in the units of input and output. The variants of a controller share its settings."
+    if SLIDING in comparison.tuning:
+        note += " convergence is C, layer the half width of the boundary layer."
     return Table("Settings, tuned on the model", ["Controller", "Setting", "Value"], rows, note=note)
 
 
@@ -158,7 +178,7 @@ def _pictures(folder: Path, comparison: Comparison) -> list[Picture]:
     for reference, rows in comparison.responses.groupby("reference", sort=False):
         parts = {str(name): part for name, part in rows.groupby("controller", sort=False)}
         found.append(_followed(folder, str(reference), parts, names, comparison.units))
-        found.append(_erred(folder, str(reference), parts, names, comparison.units))
+        found.append(_erred(folder, str(reference), parts, names, comparison))
     return found
 
 
@@ -181,9 +201,14 @@ def _followed(folder: Path, reference: str, parts: Parts, names: list[str], unit
     )
 
 
-def _erred(folder: Path, reference: str, parts: Parts, names: list[str], units: Units) -> Picture:
-    caption = f"{reference}: reference minus true displacement, on a scale that is linear within 0.01 and logarithmic "
-    caption += "beyond."
+def _erred(folder: Path, reference: str, parts: Parts, names: list[str], comparison: Comparison) -> Picture:
+    units, largest = comparison.units, max(float(part["error"].abs().max()) for part in parts.values())
+    heard = max(float(comparison.scores["noise_floor"].iloc[0]), 1e-6 * largest, 1e-12)
+    linear = 10.0 ** math.ceil(math.log10(heard))
+    caption = (
+        f"{reference}: reference minus true displacement, on a scale that is linear within {number(linear)}, the power "
+        "of ten above the sensor's noise, and logarithmic beyond."
+    )
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
@@ -191,7 +216,7 @@ def _erred(folder: Path, reference: str, parts: Parts, names: list[str], units: 
         for name in names:
             part = _start(parts[name])
             axes.plot(part["time"], part["error"], color=COLOURS[names.index(name)], linewidth=0.9, label=name)
-        axes.set_yscale("symlog", linthresh=0.01)
+        axes.set_yscale("symlog", linthresh=linear)
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Error", units, "output"))
         legend(axes, 3)
 

@@ -11,7 +11,7 @@ from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.report.diagnosis.figures import loops, residuals, waterfall
+from hysteresis_bench.report.diagnosis.figures import Steps, loops, residuals, waterfall
 from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent, sentence
 from hysteresis_bench.report.shared.theme import Picture
@@ -53,9 +53,13 @@ def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, *,
 
 def step_by_step(folder: Path, found: Mapping[str, Any], units: Units, *, name: str = "waterfall") -> Picture:
     """The error from the bare model via each adopted effect to the noise."""
-    ends = [(found[stage]["held_out"] or {}).get("rmse") for stage in ("before", "after")]
-    steps = [(step["system"], step["rmse"]) for step in found["waterfall"]]
-    return waterfall(folder, steps, (ends[0], ends[1]), units=units, name=name)
+    return waterfall(folder, *steps_of(found), units=units, name=name)
+
+
+def steps_of(found: Mapping[str, Any]) -> tuple[Steps, tuple[float | None, float | None]]:
+    """What `waterfall` draws: the steps, and the errors on what was not fitted."""
+    before, after = ((found[stage]["held_out"] or {}).get("rmse") for stage in ("before", "after"))
+    return [(step["system"], step["rmse"]) for step in found["waterfall"]], (before, after)
 
 
 def record_blocks(folder: Path, place: str, rows: pd.DataFrame, *, noise: float, units: Units) -> list[Block]:

@@ -63,7 +63,7 @@ def print_fit(fit: Fit, console: Console) -> None:
     rmse = "RMSE" if unit == "1" else f"RMSE [{unit}]"
     errors = Table(title="errors", title_justify="left", box=None, title_style="bold")
     errors.add_column("record")
-    for heading in (rmse, "relative RMS", "largest error"):
+    for heading in (escape(rmse), "relative RMS", "largest error"):
         errors.add_column(heading, justify="right")
     errors.add_column("")
     for row in fit.records.itertuples(index=False):

@@ -99,14 +99,15 @@ def _left_out(responses: pd.DataFrame) -> str:
 
 
 def _parameters(parameters: Sequence[Mapping[str, Any]]) -> Table:
+    marked = any(each.get("at_bound") for each in parameters)
     rows = [
         [
             *estimate_cells(each["name"], each["value"], each.get("standard_error"), unit=each.get("unit")),
-            Cell("at its bound", "bad") if each.get("at_bound") else "",
+            *([Cell("at its bound", "bad") if each.get("at_bound") else ""] if marked else []),
         ]
         for each in parameters
     ]
-    return Table("Identified values", [*ESTIMATE_HEADER, "Remark"], rows, ESTIMATE_NOTE)
+    return Table("Identified values", [*ESTIMATE_HEADER, *(["Remark"] if marked else [])], rows, ESTIMATE_NOTE)
 
 
 def _errors(records: Sequence[Mapping[str, Any]], units: Units) -> Table:

@@ -13,9 +13,10 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison
 from hysteresis_bench.report.laws.structure import structure_figures, structure_table
-from hysteresis_bench.report.laws.tables import laws_figure, laws_table, not_fitted
+from hysteresis_bench.report.laws.tables import draw_laws, fitted_ones, laws_figure, laws_table, not_fitted
 from hysteresis_bench.report.shared.blocks import Bullets, Figures
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
+from hysteresis_bench.report.shared.papers import save_figure
 from hysteresis_bench.report.shared.text import listed
 
 EQUAL = 0.01
@@ -56,6 +57,14 @@ def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> 
     return page.write(folder / FILE)
 
 
+def draw_comparison(path: Path, found: Comparison) -> None:
+    """The figure of the laws for a paper."""
+    laws = fitted_ones(found.as_dict()["laws"])
+    save_figure(
+        path, 1.0 + 0.22 * len(laws), lambda figure: draw_laws(figure.subplots(), laws, found.floor, found.units)
+    )
+
+
 def _structure(folder: Path, found: Comparison) -> Section:
     assert found.structure is not None
     findings = found.structure.findings
@@ -82,7 +91,9 @@ def print_comparison(found: Comparison, console: Console) -> None:
     unit = found.units.get("output", "1")
     held_out = bool(found.table["held_out"].notna().any())
     table = Printed(
-        title=f"RMSE{'' if unit == '1' else f' [{unit}]'}, noise {found.floor:.3g}", title_justify="left", box=None
+        title=escape(f"RMSE{'' if unit == '1' else f' [{unit}]'}, noise {found.floor:.3g}"),
+        title_justify="left",
+        box=None,
     )
     table.add_column("law", no_wrap=True)
     for heading in ("parameters", "left out", "fitted", *(["held out"] if held_out else []), "CPU s"):

@@ -9,7 +9,7 @@ from typing import Any
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE
 from hysteresis_bench.report.shared.blocks import Cell, Table
 from hysteresis_bench.report.shared.text import NONE, Units, named, number
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, legend, picture
+from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, numbers_beside, picture
 
 UNSEEN, HELD_OUT, WITHOUT, FLOOR = SERIES[0], SERIES[3], MUTED, SERIES[2]
 
@@ -19,26 +19,10 @@ Laws = Sequence[Mapping[str, Any]]
 
 def laws_figure(folder: Path, laws: Laws, *, floor: float, units: Units, name: str = "laws") -> Picture:
     """RMSE of every law on a logarithmic axis, beside the polynomial without memory and the noise."""
-    shown = [law for law in laws if law["unseen"] is not None]
+    shown = fitted_ones(laws)
 
     def draw(figure: Any) -> None:
-        axes = figure.add_subplot()
-        for row, law in enumerate(shown):
-            without = law["law"] == BASELINE
-            axes.plot(law["unseen"], row, "o", color=WITHOUT if without else UNSEEN, markersize=6, zorder=3)
-            axes.text(1.02, row, number(law["unseen"], 3), transform=axes.get_yaxis_transform(), va="center", color=INK)
-            if law["held_out"] is not None:
-                axes.plot(law["held_out"], row, "D", color=HELD_OUT, markersize=5, zorder=4)
-        axes.axvline(floor, color=FLOOR, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
-        axes.plot([], [], "o", color=UNSEEN, label="left out of its fit")
-        if any(law["held_out"] is not None for law in shown):
-            axes.plot([], [], "D", color=HELD_OUT, label="held out")
-        axes.plot([], [], color=FLOOR, linestyle=(0, (4, 3)), label="noise")
-        axes.set_xscale("log")
-        axes.set_yticks(range(len(shown)), [law["law"] for law in shown])
-        axes.invert_yaxis()
-        axes.set_xlabel(named("RMSE", units, "output"))
-        legend(axes)
+        draw_laws(figure.add_subplot(), laws, floor, units)
 
     told = ", ".join(f"{law['law']} {law['unseen']:.3g}" for law in shown)
     caption = (
@@ -49,6 +33,34 @@ def laws_figure(folder: Path, laws: Laws, *, floor: float, units: Units, name: s
     return picture(folder, name, size, alt=f"RMSE of every law: {told}.", caption=caption, draw=draw)
 
 
+def draw_laws(axes: Any, laws: Laws, floor: float, units: Units) -> None:
+    """The rows of `laws_figure`."""
+    shown = fitted_ones(laws)
+    for row, law in enumerate(shown):
+        without = law["law"] == BASELINE
+        axes.plot(law["unseen"], row, "o", color=WITHOUT if without else UNSEEN, markersize=6, zorder=3)
+        if law["held_out"] is not None:
+            axes.plot(law["held_out"], row, "D", color=HELD_OUT, markersize=5, zorder=4)
+    axes.axvline(floor, color=FLOOR, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+    axes.plot([], [], "o", color=UNSEEN, label="left out of its fit")
+    columns = [("left out", UNSEEN, {row: number(law["unseen"], 3) for row, law in enumerate(shown)})]
+    if any(law["held_out"] is not None for law in shown):
+        columns.append(("held out", HELD_OUT, {row: number(law["held_out"], 3) for row, law in enumerate(shown)}))
+        axes.plot([], [], "D", color=HELD_OUT, label="held out")
+    axes.plot([], [], color=FLOOR, linestyle=(0, (4, 3)), label="noise")
+    numbers_beside(axes, columns)
+    axes.set_xscale("log")
+    axes.set_yticks(range(len(shown)), [law["law"] for law in shown])
+    axes.set_ylim(len(shown) - 0.5, -0.9)
+    axes.set_xlabel(named("RMSE", units, "output"))
+    axes.figure.legend(loc="outside upper left", ncols=3, handlelength=1.4)
+
+
+def fitted_ones(laws: Laws) -> list[Mapping[str, Any]]:
+    """Those that could be fitted."""
+    return [law for law in laws if law["unseen"] is not None]
+
+
 def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Table:
     """Every law, the best first."""
     held_out = any(law["held_out"] is not None for law in laws)
@@ -56,7 +68,7 @@ def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Ta
     header = ["Law", "Parameters", f"{rmse}, left out", "times the noise", "fitted"]
     header += ["held out", "CPU seconds"] if held_out else ["CPU seconds"]
     rows = []
-    for law in (law for law in laws if law["unseen"] is not None):
+    for law in fitted_ones(laws):
         mine = law["law"] == chosen
         cells: list[str | Cell] = [
             Cell(law["law"], "quiet" if law["law"] == BASELINE else "", strong=mine),

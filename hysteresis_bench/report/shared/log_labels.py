@@ -18,7 +18,11 @@ class PlainPowers(Formatter):
 
     def __call__(self, value: float, position: int | None = None) -> str:
         formula = self.formulas(value, position).removeprefix(r"$\mathdefault{").removesuffix("}$")
-        return re.sub(r"\^\{(.*?)\}", lambda power: power[1].translate(SUPERSCRIPTS), formula).replace(r"\times", "×")
+        return (
+            re.sub(r"\^\{(.*?)\}", lambda power: power[1].translate(SUPERSCRIPTS), formula)
+            .replace(r"\times", "×")
+            .replace("-", "−")
+        )
 
     def set_axis(self, axis: Any) -> None:
         self.formulas.set_axis(axis)

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
@@ -60,6 +60,10 @@ STYLE: dict[Any, Any] = {
 
 LEGIBLE = 0.9
 """Pixels a point below which a figure is scrolled, not made smaller: 5.5 inches still fit a phone of 390 pixels."""
+
+
+WIDE = 40
+"""Points: a column of numbers beside rows."""
 
 
 @dataclass(frozen=True)
@@ -129,6 +133,14 @@ def inline(svg: str, name: str, alt: str) -> str:
 def legend(axes: Any, columns: int = 2) -> None:
     """Above the axes, in one row where there is room."""
     axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, borderaxespad=0, handlelength=1.4)
+
+
+def numbers_beside(axes: Any, columns: Sequence[tuple[str, str, Mapping[int, str]]]) -> None:
+    """Columns of numbers to the right of rows 0, 1, ... that run downwards; columns : heading, colour, text by row"""
+    for place, (heading, colour, by_row) in enumerate(columns):
+        for row, text in ((-0.7, heading), *by_row.items()):
+            at = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points", "annotation_clip": False}
+            axes.annotate(text, (1.0, row), (5 + WIDE * place, 0), color=colour, va="center", fontsize=8, **at)
 
 
 def spread_labels(positions: Sequence[float], gap: float, *, low: float = 0.0, high: float = 1.0) -> list[float]:
