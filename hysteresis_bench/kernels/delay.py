@@ -59,7 +59,7 @@ def _delay_unevenly(time: Array, u: Array, duration: Array, v: Array) -> None:
         begin[j] = 0
         place[j] = j if columns > 1 else 0
         v[0, j] = u[0, j if columns > 1 else 0]
-    end, inverse = time[1:].copy(), 1.0 / np.diff(time)
+    end, inverse = time[1:].copy(), 1.0 / (time[1:] - time[:-1])  # numba has no diff of read-only arrays
     end[-1:] = np.inf
     one, row = np.uint64(1), np.uint64(columns)
     for i in range(1, samples):

@@ -34,3 +34,12 @@ def test_a_delay_by_whole_steps_is_a_shift():
     u = np.random.default_rng(3).normal(size=(50, 1))
     shifted = np.concatenate([np.repeat(u[:1], 4, axis=0), u[:-4]])
     assert np.array_equal(delay(time, u, np.array([1.0])), shifted)
+
+
+def test_read_only_records_are_taken_on_any_grid():
+    time = np.cumsum(np.random.default_rng(4).uniform(0.5, 1.5, 40))
+    u, duration = np.sin(time)[:, None], np.array([0.0, 0.3, 2.7])
+    expected = delay(time, u, duration)
+    time.setflags(write=False)
+    u.setflags(write=False)
+    assert np.array_equal(delay(time, u, duration), expected)
