@@ -11,7 +11,7 @@ from typing import Any
 
 from griffe import Extension, Object
 
-ITEM = re.compile(r"(\[\d+\] |(?:[\w*]+(?:, )?)+ : )")
+ITEM = re.compile(r"(\[\d+\] |(?:[\w*]+, )*[\w*]+ : )")
 """How a line begins that stands on its own: a source, or one or more names and their meaning."""
 
 SENTENCE = re.compile(r"(Raises|Returns|Ours|Bounds|Departs)\b")

@@ -71,9 +71,10 @@ def advise(
         else "even so the noise hides the difference: a faster or more precise rig is needed"
     )
     unit = records[0].units.get("output", "1")
+    times = f"{ratio:.{0 if ratio >= 10.0 else 1}f} times the noise"
     words = (
         f"To tell {listed([first, *others[different]])} apart, measure {experiment}: the fitted models differ there by "
-        f"{best:.3g}{'' if unit == '1' else ' ' + unit} RMS, {ratio:.2g} times the noise; {hope}."
+        f"{best:.3g}{'' if unit == '1' else ' ' + unit} RMS, {times}; {hope}."
     )
     return Advice(experiment, best, noise, words if different.all() else f"{words} {alike}")
 

@@ -61,7 +61,8 @@ def conclude(
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
         left = remainder(after, evidence)
     model = _model(after, prepared, question)
-    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, doubt)
+    alone = len(dataset.records) == 1
+    outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, doubt, alone)
     waterfall = tuple((f"{name} (stand-in)" if name in outcome.stand_ins else name, rmse) for name, rmse in waterfall)
     return Diagnosis(
         model_name=question.model,
@@ -87,7 +88,7 @@ def conclude(
         advice=_advice(found, ties),
         memory=evidence.memory,
         equation=left.equation,
-        doubtful=outcome.doubted,
+        doubtful=outcome.doubtful,
         model=model,
         families=family_findings(model),
         certainty=_certainty(outcome, question.options.seed),

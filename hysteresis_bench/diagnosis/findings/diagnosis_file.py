@@ -120,7 +120,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     """The content of diagnosis.json.
 
     noise_rms : of the noise;  floor : RMS from which anything is judged, a little above it
-    doubtful : is so much left that the names may stand in for something else?
+    doubtful : is so much left that the names may stand in for something else, or do they not help on what is held out?
     described : those of the effects that describe what was left, and explain nothing
     certainty : of each claimed effect, the probability that it, or one tied with it, is there (null where too much is
     left to tell one), and what that rests on

@@ -41,7 +41,7 @@ class Diagnosis:
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
     given_up : effects that had been selected but predicted excitations left out worse than the bare model
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
-    doubtful : so much is left that the names may stand in for something else
+    doubtful : so much is left that the names may stand in for something else, or they do not help on what is held out
     certainty : of each claimed effect
     families : what none of its formulas fits, each with its curve
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains

@@ -25,6 +25,7 @@ class Outcome:
 
     left : in the residual;  units : of the output, as the records have it
     model : the law that was asked about;  doubt : whether the law is wrong, and what holds whatever the law
+    alone : one record was measured, and what is held out is a part of it
     """
 
     before: Stage
@@ -36,6 +37,7 @@ class Outcome:
     units: Mapping[str, str]
     model: str
     doubt: Doubt
+    alone: bool
 
     @property
     def cause(self) -> Cause | None:
@@ -77,6 +79,11 @@ class Outcome:
         return much and self.doubt == Doubt()
 
     @property
+    def doubtful(self) -> bool:
+        """May the names be wrong, because much is left, or because they do not help where they were not fitted?"""
+        return self.doubted or not self.carries_over
+
+    @property
     def leaves(self) -> tuple[float, float]:
         """RMSE of the final system over the floor: on what was fitted, and on what was held out."""
         held_out = self.after.held_out or self.after.fitted
@@ -97,7 +104,7 @@ def headline(outcome: Outcome) -> str:
     moved = f"{where} the RMSE {moves} from {first.rmse:.3g} to {last.rmse:.3g}{unit}"
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
-        said = f"The model {'may lack' if outcome.doubted else 'lacks'} {named}: {moved}"
+        said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
     elif outcome.doubt.agreement and outcome.stand_ins:
         said = f"No effect is named, as other laws do as well without any of these: with what helps this one, {moved}"
     elif outcome.cause and outcome.stand_ins:
@@ -185,7 +192,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         effect = name.rpartition(".")[0]
         place = f"{name} lies at the edge of its box ({final.values[name]:.4g})"
         said.append(f"{place}: {effect} may stand in for something else." if effect else f"{place}.")
-    if len(records) == 1:
+    if outcome.alone and after.held_out:
         said.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
         )

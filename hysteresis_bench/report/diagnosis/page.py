@@ -88,7 +88,8 @@ def _title(found: Mapping[str, Any]) -> str:
     better = found["better_law"]
     if effects := [name for name in found["effects"] if name not in found["described"]]:
         more = f", and its law is not the best: {better['model']} is" if better else ""
-        more = more or (", and something without a name" if unexplained else "")
+        rest = "its law does not follow the data" if found["agreement"] else "something without a name"
+        more = more or (f", and {rest}" if unexplained else "")
         tied = {tie["effect"] for tie in found["ties"]}
         names = [f"{name} or its like" if name in tied else name for name in effects]
         return f"{model} {'may lack' if found['doubtful'] else 'lacks'} {listed(names)}{more}"
