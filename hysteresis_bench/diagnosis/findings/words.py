@@ -109,6 +109,8 @@ def headline(outcome: Outcome) -> str:
         said = f"No effect is named, as other laws do as well without any of these: with what helps this one, {moved}"
     elif outcome.cause and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
+    elif outcome.doubt.agreement:
+        said = f"No effect is named: {where} the RMSE is {last.rmse:.3g}{unit}"
     elif outcome.cause:
         said = f"No effect is named, as the law itself is the cause: {where} the RMSE is {last.rmse:.3g}{unit}"
     else:
@@ -173,10 +175,10 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.insert(0, _gave_up(found.given_up))
     if not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
-    if outcome.doubted and found.follows:
+    if found.follows and (outcome.doubted or outcome.doubt.agreement):
         said.append(
-            f"The final system still leaves {_times(outcome)} the noise: the model's own law does not follow these "
-            "data, and what is named may stand in for that."
+            f"The final system still leaves {_times(outcome)} the noise: the model's own law does not follow these data"
+            f"{', and what is named may stand in for that' if outcome.doubted else ''}."
         )
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
