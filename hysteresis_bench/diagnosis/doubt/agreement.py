@@ -50,14 +50,28 @@ def agreement(asked: Contender, others: Sequence[Contender], enough: int = WITNE
         return None
     laws = (asked, *sorted(others, key=lambda one: one.rmse))
     needs = {law.model: law.effects for law in laws}
-    taken = Counter(name for needed in needs.values() for name in needed)
+    left = {law: list(needed) for law, needed in needs.items()}
     effects: dict[str, tuple[str, ...]] = {}
-    for name in sorted(taken, key=lambda name: (-taken[name], name)):
-        likes = {other for other in taken if other != name and alike(name, other)}
-        told = {other for others in effects.values() for other in others}
-        if not _is_shape(name) and name not in told and all({name, *likes} & {*needed} for needed in needs.values()):
-            effects[name] = tuple(sorted(likes))
+    while shared := _shared(left):
+        (name, taken), *_ = shared.items()
+        for law, one in taken.items():
+            left[law].remove(one)
+        effects[name] = tuple(sorted({*taken.values()} - {name}))
     return Agreement(needs, {law.model: law.rmse for law in laws}, effects)
+
+
+def _shared(left: Mapping[str, Sequence[str]]) -> dict[str, dict[str, str]]:
+    """What every law needs, that which most take first: of each law it, or else the first one like it."""
+    counts = Counter(name for needed in left.values() for name in needed if not _is_shape(name))
+    found = {}
+    for name in sorted(counts, key=lambda name: (-counts[name], name)):
+        taken = {
+            law: name if name in needed else next((other for other in needed if alike(name, other)), "")
+            for law, needed in left.items()
+        }
+        if all(taken.values()):
+            found[name] = taken
+    return found
 
 
 def alike(one: str, other: str) -> bool:

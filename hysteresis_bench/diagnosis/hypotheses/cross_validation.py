@@ -17,7 +17,8 @@ def advantage(ours: Array, theirs: Array, blocks: Blocks) -> float:
     Of the mean gain, or of the gains' signed ranks (Wilcoxon) where these agree and say more: one block that
     gains far more than the others, such as a first cycle, makes a mean uncertain that no block contradicts.
     """
-    gains = np.bincount(blocks.block, theirs**2 - ours**2) / np.bincount(blocks.block)
+    samples = np.bincount(blocks.block)
+    gains = np.bincount(blocks.block, theirs**2 - ours**2)[samples > 0] / samples[samples > 0]
     mean, error = float(np.mean(gains)), float(np.std(gains, ddof=1)) / np.sqrt(gains.size)
     if mean == 0.0:
         return 0.0

@@ -33,6 +33,17 @@ def test_effects_that_are_mistaken_for_each_other_count_as_one_and_the_frequent_
     assert agreed.effects == {"input-lag": ("eddy-current", "resonance")}
 
 
+def test_two_like_effects_are_both_told_where_every_law_needs_two():
+    others = [
+        law("a", 2.0, "creep", "resonance"),
+        law("b", 3.0, "creep", "input-lag"),
+        law("c", 4.0, "creep", "resonance"),
+    ]
+    agreed = agreement(law("asked", 5.0, "resonance", "creep"), others)
+    assert agreed.effects == {"creep": (), "resonance": ("input-lag",)}
+    assert {*Doubt(None, agreed).holding(["creep", "resonance"])} == {"creep", "resonance"}
+
+
 def test_what_has_no_dynamics_is_part_of_a_law_however_many_need_it():
     others = [law(name, 2.0, "saturation", "backlash", "asymmetry", "creep") for name in "abc"]
     agreed = agreement(law("asked", 5.0, "saturation", "backlash", "asymmetry", "creep"), others)
