@@ -44,33 +44,25 @@ class Cause:
     own: float
 
 
-def to_blame(found: Found) -> bool:
-    """Is more left than the noise allows, or was a curve without a formula needed?"""
-    own = found.thin.unseen(found.final)
-    curves = forms_of(found.selection.adopted(found.best))
-    return found.follows and bool(curves or np.sqrt(np.mean(own**2)) > MATTERS * found.selection.floor)
-
-
 def law_as_cause(
-    found: Found, screened: Sequence[Contender], few: tuple[Record, ...], workers: Workers[Contender]
+    found: Found, own: Contender, screened: Sequence[Contender], few: tuple[Record, ...], workers: Workers[Contender]
 ) -> Cause | None:
     """None where no other law does clearly better.
 
+    own : the law that was asked about with all that was adopted, and its errors on records left out of the fit
     screened : the laws that may stand in its place, fitted to the `few` samples
     """
     fitter, floor = found.thin, found.selection.floor
-    unseen = fitter.unseen(found.final)
-    own = float(np.sqrt(np.mean(unseen**2)))
-    adopted = found.selection.adopted(found.best)
-    curves = forms_of(adopted)
+    curves = forms_of(own.effects)
     own_few = replace(fitter, stack=replace(fitter.stack, records=few))
     left = own_few.errors(found.final.names, fitter.fitted(found.final)[1])
     reach = float(np.sqrt(np.mean(left**2))) * (MATTERS if curves else 1.0)
     promising = [one.model for one in sorted(screened, key=lambda one: one.rmse)[:PURSUED] if one.rmse < reach]
     predicting = workers.map([("predicting", name) for name in promising])
     best = min(predicting, key=lambda one: one.rmse, default=NOBODY)
-    explains = own > MATTERS * best.rmse and own**2 - best.rmse**2 > NAMED * (own**2 - floor**2)
-    clearly = explains and advantage(best.errors, unseen, fitter.blocks) > CLEAR
-    if not clearly and not (curves and best.rmse <= MATTERS * max(own, floor)):
+    explained, excess = own.rmse**2 - best.rmse**2, own.rmse**2 - floor**2
+    explains = own.rmse > MATTERS * best.rmse and explained > NAMED * excess
+    clearly = explains and advantage(best.errors, own.errors, fitter.blocks) > CLEAR
+    if not clearly and not (curves and best.rmse <= MATTERS * max(own.rmse, floor)):
         return None
-    return Cause(best.model, best.effects, best.rmse, own)
+    return Cause(best.model, best.effects, best.rmse, own.rmse)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import WITNESSES, Agreement, agreement, alike
-from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause, to_blame
+from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
@@ -17,9 +17,8 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, with_more
-from hysteresis_bench.diagnosis.search.selection import MISFIT
+from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
 
 SCREENED = 1000
 """Samples to which every law is fitted first. With half and with twice as many the same laws passed on four made cases,
@@ -67,18 +66,18 @@ class Doubt:
 
 def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequence[str]) -> Doubt:
     """laws : which may be the right one;  witnesses : which are asked what they need"""
-    if not to_blame(found):
+    options, stack, asked, floor = question.options, found.thin.stack, question.model, found.selection.floor
+    final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
+    if not found.follows or (final.rmse <= MATTERS * floor and not forms_of(final.effects)):
         return Doubt()
-    options, stack = question.options, found.thin.stack
-    few, asked = thinned(views_of(stack.records), SCREENED), question.model
-    floor = found.selection.floor
+    few = thinned(views_of(stack.records), SCREENED)
     around = OtherLaws(asked, stack, few, _in_question(found), floor, options.seed)
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
-        wrong = found.final.rmse > WRONG * floor or unseen_rmse(found.thin, found.final) > MISFIT * floor
+        wrong = found.final.rmse > WRONG * floor or final.rmse > MISFIT * floor
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
-        cause = law_as_cause(found, [one for one in screened if one.model in laws], few, workers)
+        cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
         if not wrong or (cause and cause.unseen <= MISFIT * floor):
             return Doubt(cause)
         (own,) = workers.map([("needy", asked)])
