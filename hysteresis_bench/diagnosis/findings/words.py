@@ -106,7 +106,7 @@ def headline(outcome: Outcome) -> str:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
     elif outcome.doubt.agreement and outcome.stand_ins:
-        said = f"No effect is named, as other laws do as well without any of these: with what helps this one, {moved}"
+        said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
     elif outcome.cause and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
     elif outcome.doubt.agreement:
