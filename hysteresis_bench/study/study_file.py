@@ -14,6 +14,9 @@ from hysteresis_bench.parameters import Scaling
 from hysteresis_bench.study.strict import Seconds, Strict, read_toml, shown, validated
 from hysteresis_bench.study.study_faults import content_faults
 
+AS_MANY = {"optimizers", "instances", "most_trials"}
+"""What of a problem says how much of it is run."""
+
 
 class OptimizerSpec(Strict):
     """One optimizer of a study; `label` tells two of the same plugin apart; `budget` overrides the study's."""
@@ -69,6 +72,7 @@ class ProblemSpec(Strict):
     instances : of the rig, where it is another number than the study's
     ranges : of rig settings that are drawn in every instance but the first, beside those that the rig declares
     optimizers : labels of those that run on this problem; all where none is named
+    most_trials : of every optimizer on every instance, whatever the study asks for: where a trial takes minutes
     """
 
     name: str
@@ -90,6 +94,7 @@ class ProblemSpec(Strict):
     instances: PositiveInt | None = None
     ranges: dict[str, tuple[float, float]] = {}
     optimizers: list[str] = []
+    most_trials: PositiveInt | None = None
     skip: Seconds | None = None
     settle: bool = False
 
@@ -184,10 +189,14 @@ class Study(Strict):
     def instances_of(self, spec: ProblemSpec) -> int:
         return (spec.instances or self.instances) if spec.rig else 1
 
+    def trials_of(self, spec: ProblemSpec, asked: int) -> int:
+        """Of those asked for, of every optimizer on every instance."""
+        return min(asked, spec.most_trials or asked)
+
     def identity(self) -> dict[str, Any]:
         """What makes it the same study: all but the instances, the trials, the optimizers, and what follows them."""
         more: dict[str, Any] = dict.fromkeys(("instances", "trials", "optimizer", "stage", "closing"), True)
-        found = self.model_dump(mode="json", exclude=more | {"problem": {"__all__": {"optimizers", "instances"}}})
+        found = self.model_dump(mode="json", exclude=more | {"problem": {"__all__": AS_MANY}})
         for problem in found["problem"]:
             if not problem["ranges"]:
                 del problem["ranges"]

@@ -102,6 +102,18 @@ def test_shards_share_the_trials_of_every_optimizer(tmp_path):
     assert all(sum(ticket.optimizer == "pso" for ticket in part) == 6 for part in parts)
 
 
+def test_a_problem_may_have_fewer_trials_than_the_study_is_asked_for(tmp_path):
+    dear = TEXT.replace('name = "p"', 'name = "q"\nmost_trials = 2')
+    both = TEXT.replace(
+        "[[optimizer]]", dear[dear.index("[[problem]]") : dear.index("[[optimizer]]")] + "[[optimizer]]", 1
+    )
+    study = check_study(tomllib.loads(both), "t.toml")
+    for asked, of_q in ((1, 1), (2, 2), (5, 2)):
+        trials = [(ticket.problem, ticket.trial) for ticket in tickets_of(study, tmp_path, asked)]
+        assert sorted(set(trials)) == [("p", i) for i in range(asked)] + [("q", i) for i in range(of_q)]
+    assert study.identity() == check_study(tomllib.loads(both.replace("most_trials = 2\n", "")), "t.toml").identity()
+
+
 def test_a_folder_of_one_instance_is_kept_as_before(tmp_path):
     path = tmp_path / "t.toml"
     path.write_text(TEXT.replace("instances = 2\n", ""), encoding="utf-8")

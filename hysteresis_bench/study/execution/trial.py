@@ -125,12 +125,13 @@ def tickets_of(study: Study, data: Path, trials: int) -> list[Ticket]:
         for label in problem.optimizers or study.labels
     }
     instances = {spec.name: study.instances_of(spec) for spec in study.problem}
+    most = {spec.name: study.trials_of(spec, trials) for spec in study.problem}
     return [
         Ticket(text, folder, problem, label, trial, alone, instance)
         for trial in range(trials)
         for instance in range(FIRST, FIRST + max(instances.values()))
         for (problem, label), alone in strange.items()
-        if instance - FIRST < instances[problem]
+        if instance - FIRST < instances[problem] and trial < most[problem]
     ]
 
 
