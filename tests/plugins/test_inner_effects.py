@@ -39,7 +39,8 @@ def drawn(system: System, record: Record, swarm: int) -> np.ndarray:
 
 
 def test_the_models_with_room_are_known():
-    assert registry.offered()[EDDY] == ("bouc-wen", "free-energy", "jiles-atherton", "jiles-atherton-clamped")
+    laws = ("bouc-wen", "free-energy", "free-energy-gma", "jiles-atherton", "jiles-atherton-clamped")
+    assert registry.offered()[EDDY] == laws
 
 
 @offering
@@ -49,7 +50,7 @@ def test_it_adds_its_own_parameter_and_leaves_the_others_alone(model):
     assert around.parameters[:-1] == alone.parameters
     assert around.parameters[-1].name == NAME
     assert around.parameters[-1].null == 0.0
-    assert around.parameters[-1].unit_in(UNITS) == "A s/T"
+    assert around.parameters[-1].unit_in(UNITS) == ("s" if model == "free-energy-gma" else "A s/T")
     record = measured()
     assert around.box([record])[:-1] == alone.box([record])
     assert around.box([record])[-1].faults() == []

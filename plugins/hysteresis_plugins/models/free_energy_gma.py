@@ -23,17 +23,20 @@ and η besides only as their product: five combinations of the eight can be foun
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from types import MappingProxyType
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Model
+from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import FINEST, dominant_frequency, finest_step
+from hysteresis_plugins.models._eddy_current import EddyCurrent
 from hysteresis_plugins.models.free_energy import FreeEnergy, unswitched
 
 REDUCED = {"lambda_s": 1.0e-3, "M_s": 7.65e5, "alpha": 2.0e-9}
@@ -42,6 +45,31 @@ Flatau, IEEE Trans. Magnetics 36 (2000) 545; α such that the densities' mass is
 
 LEAST_COERCIVE = 200.0
 """A/m; the softest material that the box allows. A smaller field switches next to nothing."""
+
+SUSCEPTIBILITY = (1.0, 100.0)
+"""dM/dH of rods, hard and soft; Terfenol-D has some 2 to 10 (Engdahl, Handbook of Giant Magnetostrictive Materials,
+2000)."""
+
+
+@dataclass(frozen=True)
+class RodEddyCurrent(EddyCurrent):
+    """Eddy currents in the rod: the field H - coefficient dM/dt magnetizes it, as `EddyCurrent` says of any law.
+
+    In a rod of radius R and conductivity σ that the field penetrates, the coefficient is μ0 σ R²/8 [1]; it is known
+    only as well as the magnetization's scale, which M_s, λ_s and α set together.
+
+    [1] G. Bertotti, Hysteresis in Magnetism, Academic Press (1998), section 12.1: the classical loss of a cylinder.
+    """
+
+    parameters = (
+        Parameter("coefficient", 1e-9, 1.0, "s", "log", null=0.0, meaning="drag on the magnetization's rate"),
+    )
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Where the rod lags by a fiftieth of a sampling step to a period of the slowest record's input."""
+        least, most = SUSCEPTIBILITY
+        period = max(1.0 / dominant_frequency(record) for record in records)
+        return (self.parameters[0].within(FINEST * finest_step(records) / most, period / least),)
 
 
 @dataclass(frozen=True)
@@ -71,6 +99,7 @@ class FreeEnergyGma(Model):
         ),
         Parameter("alpha", 1e-10, 1e-7, "m^2/A^2", "log", meaning="scale of the densities"),
     )
+    offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({"eddy-current": RodEddyCurrent()})
 
     turns: float = 14400.0
     area: float = 7.85e-5
