@@ -1,0 +1,120 @@
+"""What halving and doubling each threshold of the diagnosis does to its verdicts, on made cases.
+
+    python benchmarks/thresholds.py [--cases 18] [--seed 0]
+
+A verdict is what is named, tied, left as a curve, or told to stand in for the law, and whether anything is left. Of a
+ratio that means something from 1 on, such as 1.06, the excess over 1 is halved and doubled. Every third case has the
+effects by other formulas, every third one is asked about a law that did not make it. Fits do not depend on these
+thresholds: what was fitted once is kept for the next one. Targets: 2 % of the verdicts.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import importlib
+import pkgutil
+import tempfile
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+from rich.console import Console
+
+import hysteresis_bench.diagnosis as package
+from hysteresis_bench import DiagnosisOptions, diagnose, registry
+from hysteresis_bench.commands.data.journal import Journal
+from hysteresis_bench.signals import Dataset
+from hysteresis_bench.study.problems import measure
+
+HOME = package.__name__
+THRESHOLDS = (
+    ("search.selection", "LEVEL", 0.0),
+    ("search.selection", "MATTERS", 1.0),
+    ("search.selection", "SHARE", 0.0),
+    ("search.selection", "NAMED", 0.0),
+    ("search.selection", "CLOSE", 0.0),
+    ("search.selection", "ALIKE", 1.0),
+    ("search.selection", "MISFIT", 1.0),
+    ("hypotheses.cross_validation", "CLEAR", 0.0),
+    ("evidence.noise_floor", "WRONG", 1.0),
+    ("evidence.memory", "MATERIAL", 0.0),
+    ("findings.remainder", "REMAINS", 1.0),
+)
+"""Module, name, and the value from which it counts."""
+MAKERS = ("bouc-wen", "jiles-atherton", "prandtl-ishlinskii-modified", "dahl", "ferroelectric")
+FITTED, HELD_OUT = ("slow", "fast", "nested", "sweep"), ("mixed",)
+
+Verdict = tuple[object, ...]
+Case = tuple[str, Dataset]
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("--cases", type=int, default=18)
+    parser.add_argument("--seed", type=int, default=0)
+    told = parser.parse_args()
+    modules = [importlib.import_module(one.name) for one in pkgutil.walk_packages(package.__path__, f"{HOME}.")]
+    cases = list(made(told.cases, told.seed))
+    console = Console(width=100, highlight=False)
+    with tempfile.TemporaryDirectory() as folder:
+        kept = [Journal(Path(folder) / f"{number}.jsonl", str(number)) for number in range(len(cases))]
+        plain = [verdict(case, journal) for case, journal in zip(cases, kept, strict=True)]
+        console.print(f"{len(cases)} cases; verdicts that change where a threshold is halved, and doubled")
+        worst = 0.0
+        for home, name, origin in THRESHOLDS:
+            value = getattr(importlib.import_module(f"{HOME}.{home}"), name)
+            row = []
+            for factor in (0.5, 2.0):
+                with changed(modules, f"{HOME}.{home}", name, origin + factor * (value - origin)):
+                    found = [verdict(case, journal) for case, journal in zip(cases, kept, strict=True)]
+                row.append([number for number, pair in enumerate(zip(plain, found, strict=True)) if pair[0] != pair[1]])
+            worst = max(worst, *(len(one) / len(cases) for one in row))
+            told_cases = "; ".join(", ".join(f"{n} ({cases[n][0]})" for n in one) or "none" for one in row)
+            console.print(f"{home + '.' + name:38s} {value:<7g} {len(row[0]):2d} {len(row[1]):2d}   {told_cases}")
+        console.print(f"worst: {100 * worst:.1f} % of the verdicts, asked at most 2 %")
+
+
+def made(count: int, seed: int) -> Iterator[Case]:
+    """The law that is asked about, and the records."""
+    rng = np.random.default_rng([seed, 20261122])
+    for number in range(count):
+        law = MAKERS[rng.integers(len(MAKERS))]
+        asked = MAKERS[rng.integers(len(MAKERS))] if number % 3 == 2 else law
+        settings = {"model": law, "hide": int(rng.integers(0, 3)), "draw": int(rng.integers(10**6))}
+        rig = registry.build("rigs", "hidden-effects", settings | {"other": number % 3 == 1})
+        dataset = measure(rig, [*FITTED, *HELD_OUT], "thresholds", seed, number)
+        yield asked, Dataset(dataset.records, HELD_OUT)
+
+
+def verdict(case: Case, kept: Journal) -> Verdict:
+    asked, dataset = case
+    found = diagnose(dataset, asked, options=replace(DiagnosisOptions(jobs=1), kept=kept))
+    ties = frozenset((tie.effect, tie.rival) for tie in found.ties)
+    return found.verdict, frozenset(found.effects), frozenset(found.stand_ins), ties
+
+
+@contextmanager
+def changed(modules: Sequence[ModuleType], home: str, name: str, value: float) -> Iterator[None]:
+    """The constant, in its module and wherever it was imported from there."""
+    known = {module: getattr(module, name) for module in modules if module.__name__ == home or _has(module, home, name)}
+    try:
+        for module in known:
+            setattr(module, name, value)
+        yield
+    finally:
+        for module, before in known.items():
+            setattr(module, name, before)
+
+
+def _has(module: ModuleType, home: str, name: str) -> bool:
+    tree = ast.parse(Path(module.__file__ or "").read_text(encoding="utf-8"))
+    froms = (node for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module == home)
+    return any(alias.name == name for node in froms for alias in node.names)
+
+
+if __name__ == "__main__":
+    main()
