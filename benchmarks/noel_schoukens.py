@@ -22,13 +22,15 @@ from real_measurements import DATA
 from scipy.integrate import solve_ivp
 from table import Line, show
 
-from hysteresis_bench import compare, fit, load
+from hysteresis_bench import FitOptions, compare, fit, load
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_plugins.models.oscillator import LAWS
 
 PERIOD, RATE = 8192, 750.0
+BUDGET = 1500
+"""Evaluations of each of a fit's two searches."""
 CLASSES = ("oscillator", "hammerstein", "bouc-wen", "preisach", "prandtl-ishlinskii")
 MASS, DAMPING, STIFFNESS, ALPHA, BETA, GAMMA, DELTA = 2.0, 10.0, 5e4, 5e4, 1e3, 0.8, -1.1
 NOISE = 7.4e-6
@@ -66,7 +68,7 @@ def main() -> None:
 
 
 def _fitted(record: Record, law: str) -> Fit:
-    return fit(Dataset((record,)), "oscillator", settings={"law": law})
+    return fit(Dataset((record,)), "oscillator", settings={"law": law}, options=FitOptions(budget=BUDGET))
 
 
 def _last(record: Record) -> Record:

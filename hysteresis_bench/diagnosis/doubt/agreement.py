@@ -18,8 +18,12 @@ from dataclasses import dataclass
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 
-WITNESSES = 3
-"""Laws beside the asked one, below which they are too few to agree; one is enough where it does clearly better."""
+
+def is_shape(name: str) -> bool:
+    """Has it no dynamics, so that with a rate-independent law it makes another one? What acts inside the state equation
+    has some."""
+    family = registry.effect(name).family
+    return family.startswith("curve") or (family == "law" and name not in registry.offered())
 
 
 @dataclass(frozen=True)
@@ -37,17 +41,15 @@ class Agreement:
 
     def without(self, name: str) -> str:
         """Why it may stand in for the law: the best one beside the asked one that needs nothing like it, or none."""
-        if _is_shape(name):
+        if is_shape(name):
             return "as it has no dynamics, any law may have it in its shape"
         others = list(self.needs.items())[1:]
         found = next((law for law, needed in others if not any(alike(name, one) for one in needed)), "")
         return found and f"{found} does without"
 
 
-def agreement(asked: Contender, others: Sequence[Contender], enough: int = WITNESSES) -> Agreement | None:
-    """None where the witnesses are too few. others : laws that leave no more than the asked one"""
-    if len(others) < enough:
-        return None
+def agreement(asked: Contender, others: Sequence[Contender]) -> Agreement:
+    """others : laws that leave no more than the asked one; without them only a part of its shape is refused"""
     laws = (asked, *sorted(others, key=lambda one: one.rmse))
     needs = {law.model: law.effects for law in laws}
     left = {law: list(needed) for law, needed in needs.items()}
@@ -62,7 +64,7 @@ def agreement(asked: Contender, others: Sequence[Contender], enough: int = WITNE
 
 def _shared(left: Mapping[str, Sequence[str]]) -> dict[str, dict[str, str]]:
     """What every law needs, that which most take first: of each law it, or else the first one like it."""
-    counts = Counter(name for needed in left.values() for name in needed if not _is_shape(name))
+    counts = Counter(name for needed in left.values() for name in needed if not is_shape(name))
     found = {}
     for name in sorted(counts, key=lambda name: (-counts[name], name)):
         taken = {
@@ -80,10 +82,3 @@ def alike(one: str, other: str) -> bool:
     first, second = registry.effect(one), registry.effect(other)
     related = other in first.mistaken_for or one in second.mistaken_for
     return one == other or related or (first.family == second.family and first.family != "law")
-
-
-def _is_shape(name: str) -> bool:
-    """Has it no dynamics, so that with a rate-independent law it makes another one? What acts inside the state equation
-    has some."""
-    family = registry.effect(name).family
-    return family.startswith("curve") or (family == "law" and name not in registry.offered())

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.doubt.agreement import WITNESSES, Agreement, agreement, alike
+from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_shape
 from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
@@ -83,7 +83,8 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         (own,) = workers.map([("needy", asked)])
         good = [one.model for one in screened if one.rmse <= own.rmse and _is_rate_independent(one.model)]
         needy = workers.map([("needy", name) for name in good])
-        return Doubt(cause, agreement(own, needy, 1 if cause else WITNESSES))
+        shaped = _is_rate_independent(asked) and any(is_shape(name) for name in own.effects)
+        return Doubt(cause, agreement(own, needy) if needy or shaped else None)
 
 
 def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:

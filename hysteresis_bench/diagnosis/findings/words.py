@@ -136,8 +136,12 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
     else:
         yield "The law itself does not follow the data, and no other one here does clearly better."
     if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):
-        others = f"None of the {len(agreed.needs) - 1} other laws that leave no more"
-        yield f"{others} does without {listed(names)} or the like."
+        _, *others = agreed.needs
+        without = f"does without {listed(names)} or the like"
+        if len(others) > 1:
+            yield f"None of the {len(others)} other laws that leave no more {without}."
+        else:
+            yield f"No other law that leaves no more {without}." if others else "No other law here leaves as little."
     if refused := outcome.doubt.asks_for(outcome.adopted):
         yield f"{listed(refused)} would be needed too, but does not help {outcome.model} to predict records left out."
     if outcome.stand_ins:

@@ -51,8 +51,8 @@ def test_what_has_no_dynamics_is_part_of_a_law_however_many_need_it():
     assert "shape" in agreed.without("backlash")
 
 
-def test_two_laws_beside_the_asked_one_are_too_few_to_agree():
-    assert agreement(ASKED, [law("a", 2.0, "input-lag"), law("b", 3.0, "input-lag")]) is None
+def test_without_a_witness_only_a_part_of_the_shape_is_refused():
+    assert agreement(ASKED, []).effects == {"input-lag": ()}
 
 
 def test_likeness_goes_both_ways_and_a_place_inside_the_law_is_no_likeness():
