@@ -54,9 +54,11 @@ def main() -> None:
     spring = min(springs, key=lambda law: _error(springs[law], then))
     begun = time.process_time()
     found = _fitted(record.take(slice(0, 4 * PERIOD)), spring)
-    print(found.model.parameters)
+    for name, estimate in found.model.parameters.items():
+        print(f"{name:10s} {estimate.value:.6g} ± {estimate.standard_error:.2g}")
     rng = np.random.default_rng(20160425)
-    unseen = {name: _answered(*force) for name, force in (("multisine", multisine(rng)), ("sweep", sweep()))}
+    forces = {"multisine": multisine(rng), "sweep": sweep()}
+    unseen = {name: replace(_answered(*force), units=record.units) for name, force in forces.items()}
     lines = [
         Line("class found: oscillator (1: yes)", float(table["law"].iloc[0] == "oscillator"), least=1.0),
         Line(f"held-out period over the noise, spring {spring}", _error(found, _last(record)) / NOISE, most=1.15),
@@ -113,8 +115,7 @@ def _answered(fine: Array, force: Array) -> Record:
 
     at = fine[::20]
     found = solve_ivp(slope, (0.0, at[-1]), [0.0, 0.0, 0.0], "DOP853", at, rtol=1e-8, atol=1e-10, max_step=fine[20])
-    units = {"time": "s", "input": "N", "output": "m"}
-    return Record(at, force[::20], found.y[0], "made", units, history=PERIOD)
+    return Record(at, force[::20], found.y[0], "made", history=PERIOD)
 
 
 if __name__ == "__main__":
