@@ -134,7 +134,10 @@ def draw_tracking(path: Path, columns: dict[str, Array], units: Units) -> None:
 
 
 def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
-    """Expected error over frequency, a line an amplitude; table : as `sweep` makes it"""
+    """Expected error over frequency, a line an amplitude, its marks hollow where the fit has not seen the like.
+
+    table : as `sweep` makes it
+    """
 
     def draw(figure: Any) -> None:
         axes = figure.subplots()
@@ -142,6 +145,8 @@ def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
             colour, share = SERIES[place % len(SERIES)], 100.0 / rows["amplitude"]
             errors, label = share * rows["expected"], f"{amplitude:.3g}"
             axes.plot(rows["frequency"], errors, color=colour, marker="o", markersize=3, label=label)
+            guessed = rows["beyond"] != ""
+            axes.plot(rows["frequency"][guessed], errors[guessed], "o", color=colour, markersize=3, markerfacecolor="w")
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter("{x:g}")
         axes.set_ylim(bottom=0.0)
