@@ -13,6 +13,7 @@ from pathlib import Path
 import pandas as pd
 
 from hysteresis_bench.data.layout import Layout
+from hysteresis_bench.data.readers.clocks import clocked
 from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark, looks_like_a_number
 from hysteresis_bench.data.readers.sheet import LONGEST, TOP, Sheet, top_of, units_in
 from hysteresis_bench.errors import UserError
@@ -21,6 +22,8 @@ COMMENT = re.compile(r"\s*(#|%|//|!)")
 CANDIDATES = ("\t", ";", "|", ",", " ")
 """In the order in which they are believed where two do as well."""
 NAMES = {"\t": "tabs", ";": "semicolons", "|": "bars", ",": "commas", " ": "blanks"}
+SINGLE, FEW_CELLS = re.compile(r"(?<![^;,|\s])'([^'\"\n]*)'(?![^;,|\s])"), 2
+"""A cell in single quotes; so many in the first lines make it a custom of the file."""
 PADDING, CONTROL = b"\0\x1a\r\n", re.compile(rb"[\0-\x08\x0e-\x1f]")
 """Bytes that old programs and loggers leave at the end of a file; bytes that no text has."""
 MARKUP = re.compile(r"\s*(<[!?A-Za-z]|\{\s*[\"}]|\[\s*[{\[])")
@@ -32,7 +35,8 @@ MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codec
 def read_text(path: Path, layout: Layout) -> Sheet:
     """The sheet of a text file. Raises UserError for what is no text, no table, or ambiguous."""
     text, notes = _decoded(path)
-    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    text = _double_quoted(text.replace("\r\n", "\n").replace("\r", "\n"))
+    lines = text.split("\n")
     if not any(line.strip() for line in lines):
         raise UserError(str(path), "is empty.")
     if MARKUP.match(text):
@@ -43,6 +47,9 @@ def read_text(path: Path, layout: Layout) -> Sheet:
         raise UserError(str(path), "cannot be read as CSV: it holds comments only.")
     head = plain[:TOP]
     mark = layout.mark or _delimiter([lines[index] for index in head])
+    if clock := clocked(lines, mark):
+        lines, told = clock
+        notes.append(told)
     rows = [_cells(lines[index], mark) for index in head]
     top = top_of(rows, (layout.time, layout.input, layout.output))
     header = () if top.header is None else tuple(rows[top.header])
@@ -88,6 +95,14 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
         return text.decode("utf-8"), notes
     except UnicodeDecodeError:
         return text.decode("cp1252", errors="replace"), [*notes, "read as Windows text (cp1252), since it is not UTF-8"]
+
+
+def _double_quoted(text: str) -> str:
+    """The text with double quotes about its cells where the first lines have single ones."""
+    first = text[: 50 * LONGEST]
+    if len(SINGLE.findall(first)) < FEW_CELLS or '"' in first:
+        return text
+    return SINGLE.sub(r'"\1"', text)
 
 
 def _is_header(line: str, layout: Layout) -> bool:
