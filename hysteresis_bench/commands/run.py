@@ -11,7 +11,7 @@ import click
 from hysteresis_bench.commands.outputs import check_results, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
-from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
 from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ DONE, FAILED_TRIALS = 0, 1
 @click.option("--scheduler", metavar="ADDRESS", help="Run the trials on the workers of this Dask scheduler.")
 @click.option("--shard", metavar="I/N", help="Run the I-th of N parts only; `merge` puts them together.")
 @json_option
+@open_option
 @force_option
 def run(
     study: Path,
@@ -43,6 +44,7 @@ def run(
     scheduler: str | None,
     shard: str | None,
     as_json: bool,
+    open_page: bool,
     force: bool,
 ) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
@@ -62,7 +64,9 @@ def run(
         if retry or scheduler or shard or instances:
             none = "is a study of diagnosis: it has no --retry, --scheduler, --shard or --instances."
             raise UserError(str(study), none)
-        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console, as_json))
+        code, page = _run_diagnosis_study(study, trials, jobs, out, console, as_json)
+        say_page(console, page, open_page, "report")
+        sys.exit(code)
     check_published_beside(study)
     reached = [Progress(0, 0, None)]
 
@@ -83,11 +87,13 @@ def run(
         if as_json:
             say_json({"trials": reached[-1].done, "of": reached[-1].total, "results": folder})
         return
-    sys.exit(_report(read_results(folder), console, as_json))
+    code, page = _report(read_results(folder), console, as_json)
+    say_page(console, page, open_page, "report")
+    sys.exit(code)
 
 
-def _report(results: Results, console: Console, as_json: bool) -> int:
-    """Write and print it; returns the exit code."""
+def _report(results: Results, console: Console, as_json: bool) -> tuple[int, Path]:
+    """Write and print it; returns the exit code and the page."""
     from hysteresis_bench.commands.report import summary_of
     from hysteresis_bench.report.study import write_report
     from hysteresis_bench.report.study.console import print_summary
@@ -113,15 +119,14 @@ def _report(results: Results, console: Console, as_json: bool) -> int:
         console.print("What the machine failed at is done again by `run --retry`.", highlight=False)
     for told in how_it_closed(results):
         console.print(told, highlight=False, markup=False)
-    say_path(console, "report", page)
     unfinished = len(failed) or (results.closing and not results.closing.finished)
-    return FAILED_TRIALS if unfinished else DONE
+    return (FAILED_TRIALS if unfinished else DONE), page
 
 
 def _run_diagnosis_study(
     study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console, as_json: bool
-) -> int:
-    """A study of diagnosis; returns the exit code."""
+) -> tuple[int, Path]:
+    """A study of diagnosis; returns the exit code and the page."""
     from hysteresis_bench.diagnosis_study.results import read_cases
     from hysteresis_bench.diagnosis_study.run import CaseProgress, run_diagnosis_study
     from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
@@ -136,7 +141,6 @@ def _run_diagnosis_study(
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
     page = write_diagnosis_study_page(results_folder)
-    say_path(console, "report", page)
     if as_json:
         say_json({"answer": answer(results_folder), "report": page})
-    return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE
+    return (FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE), page
