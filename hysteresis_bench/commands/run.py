@@ -51,6 +51,7 @@ def run(
     from hysteresis_bench.commands.terminal.progress import progress_bar
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
     from hysteresis_bench.report.paper.published import check_published_beside
+    from hysteresis_bench.report.study import write_report
     from hysteresis_bench.study.execution.shards import Shard
     from hysteresis_bench.study.results import read_results
     from hysteresis_bench.study.run import Progress, RunOptions, default_folder
@@ -82,26 +83,25 @@ def run(
 
         options = RunOptions(retry, scheduler, part, instances)
         run_with_diagnosis(study, trials=trials, jobs=jobs, out=folder, options=options, on_progress=keep)
+        page = folder if part else write_report(folder)
     if part:
         say_path(console, f"{kept()}; for `merge`, part {part}", folder)
         if as_json:
             say_json({"trials": reached[-1].done, "of": reached[-1].total, "results": folder})
         return
-    code, page = _report(read_results(folder), console, as_json)
+    code = _report(read_results(folder), page, console, as_json)
     say_page(console, page, open_page, "report")
     sys.exit(code)
 
 
-def _report(results: Results, console: Console, as_json: bool) -> tuple[int, Path]:
-    """Write and print it; returns the exit code and the page."""
+def _report(results: Results, page: Path, console: Console, as_json: bool) -> int:
+    """Print it; returns the exit code."""
     from hysteresis_bench.commands.report import summary_of
-    from hysteresis_bench.report.study import write_report
     from hysteresis_bench.report.study.console import print_summary
     from hysteresis_bench.report.study.page import how_it_closed
     from hysteresis_bench.study.execution.pool import MACHINE
     from hysteresis_bench.study.results import FINISHED
 
-    page = write_report(results.folder)
     failed = results.trials[~results.trials["status"].isin(FINISHED)]
     several = results.trials["instance"].nunique() > 1
     if as_json:
@@ -120,7 +120,7 @@ def _report(results: Results, console: Console, as_json: bool) -> tuple[int, Pat
     for told in how_it_closed(results):
         console.print(told, highlight=False, markup=False)
     unfinished = len(failed) or (results.closing and not results.closing.finished)
-    return (FAILED_TRIALS if unfinished else DONE), page
+    return FAILED_TRIALS if unfinished else DONE
 
 
 def _run_diagnosis_study(
