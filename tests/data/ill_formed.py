@@ -348,6 +348,9 @@ CASES: dict[str, Case] = {
     "single quotes": Case(text("'time [s]','input [V]','output [um]'", edit=single(",")), units=SI),
     "single quotes and decimal commas": Case(text("'time';'input';'output'", ";", ",", edit=single(";"))),
     "single quotes about names": Case(text("'time','input','output'")),
+    "a header in several lines": Case(text('"time\n[s]","input\n[V]","output\n[um]"'), units=SI),
+    "quoted names between blanks": Case(text('"time" "input" "output"', " "), suffix=".dat"),
+    "several trailing delimiters": Case(text("time,input,output", edit=lambda lines: [f"{one},,," for one in lines])),
     "npz with what is no column": Case(
         npz(**RECORD, spectrum=np.fft.fft(OUTPUT), image=np.zeros((9, 9, 9))), suffix=".npz",
         told="left out: spectrum (complex numbers), image (3 dimensions)",

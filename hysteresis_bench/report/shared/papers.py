@@ -152,7 +152,8 @@ def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel(f"Frequency (1/{units['time']})")
         axes.set_ylabel("Expected RMS error\n(% of amplitude)")
-        title = named("Amplitude", units, "output")
+        hollow = "; hollow: unlike the fit" if (table["beyond"].fillna("") != "").any() else ""
+        title = f"{named('Amplitude', units, 'output')}{hollow}"
         figure.legend(loc="outside upper left", ncols=4, handlelength=1.4, title=title, alignment="left")
 
     save_figure(path, 2.9, draw)
