@@ -23,6 +23,7 @@ from hysteresis_bench.commands.plugins.new_plugin import new_plugin
 from hysteresis_bench.commands.predict import predict
 from hysteresis_bench.commands.report import report
 from hysteresis_bench.commands.run import run
+from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.errors import UserError, nearest
 
 USER_AT_FAULT = 2
@@ -43,6 +44,10 @@ class Group(click.Group):
 
         Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
         sys.exit(USER_AT_FAULT)
+
+    def invoke(self, context: click.Context) -> Any:
+        with told_when_stopped(context.info_name or "", lambda: "what it has told of is kept"):
+            return super().invoke(context)
 
     def resolve_command(self, context: click.Context, args: list[str]) -> Any:
         if args and self.get_command(context, args[0]) is None:

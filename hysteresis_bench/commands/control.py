@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -188,30 +187,48 @@ def _sweep(
     write_table(folder / SWEEP, found)
     draw_sweep(drawn, found, fitted.units)
     if as_json:
-        say_json({"sweep": found.to_dict("records"), "table": folder / SWEEP, "figure": drawn})
+        files = {"table": folder / SWEEP, "figure": drawn}
+        say_json({"sweep": found.to_dict("records"), "fitted": _fitted_on(fitted), **files})
         return
     console = plain_console()
-    _print_sweep(found, fitted.units, console)
+    _print_sweep(found, fitted, console)
     say_path(console, "table", folder / SWEEP)
     say_path(console, "figure", drawn)
 
 
-def _print_sweep(found: pd.DataFrame, units: Mapping[str, str], console: Console) -> None:
+def _fitted_on(fitted: FittedModel) -> str:
+    """On which inputs the model was fitted, as far as its file tells; in anything else it guesses."""
+    from hysteresis_bench.fit.unseen.excited import AMPLITUDE, FREQUENCY
+
+    known, units = fitted.data.get("excited") or {}, fitted.units
+    if AMPLITUDE not in known:
+        return "The model file does not keep how fast and how far the fitted inputs went; fit again to have it told."
+    (small, large), unit = known[AMPLITUDE], "" if units["input"] == "1" else f" {units['input']}"
+    told = f"Fitted on amplitudes of the input of {small:.3g} to {large:.3g}{unit}"
+    if FREQUENCY not in known:
+        return f"{told}; their time was only an index, so that no frequency was."
+    slow, fast = known[FREQUENCY]
+    return f"{told} and on {slow:.3g} to {fast:.3g} cycles a unit of time ({units['time']}); beyond, the model guesses."
+
+
+def _print_sweep(found: pd.DataFrame, fitted: FittedModel, console: Console) -> None:
     from rich.markup import escape
     from rich.table import Table
 
+    units = fitted.units
     spelled = {name: "" if unit == "1" else f" [{unit}]" for name, unit in units.items()}
     table = Table(title="feed-forward along sines, by the model", title_justify="left", box=None, pad_edge=False)
     headings = (f"amplitude{spelled['output']}", f"frequency [1/{units['time']}]", f"input{spelled['input']}")
     for heading in (*headings, "RMSE left", "RMSE expected", "share"):
         table.add_column(escape(heading), justify="right")
+    table.add_column("unlike the fit")
     for row in found.dropna(subset="left").itertuples():
         numbers = (row.amplitude, row.frequency, row.input, row.left, row.expected)
         shown = [f"{number:.3g}" for number in numbers]
-        table.add_row(*shown, f"{row.expected / row.amplitude:.1%}", style="yellow" if row.beyond else "")
+        share = f"{row.expected / row.amplitude:.1%}"
+        table.add_row(*shown, share, row.beyond, style="yellow" if row.beyond else "")
     console.print(table)
-    if found["beyond"].eq(True).any():
-        console.print("Yellow, or `beyond` in the table: inputs that the fit has not seen.", highlight=False)
+    console.print(_fitted_on(fitted), highlight=False, markup=False)
     for reason, rows in found[found["left"].isna()].groupby("reason", sort=False):
         places = ", ".join(f"{row.amplitude:.3g} at {row.frequency:.3g}" for row in rows.itertuples())
         console.print(f"{places}: {reason}", highlight=False, markup=False)

@@ -8,12 +8,11 @@ from typing import Any
 import click
 
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
-from hysteresis_bench.commands.terminal.console import plain_console, say_path
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_page, say_path
 
 
 @click.command()
 @click.argument("results", type=click.Path(path_type=Path, file_okay=False))
-@click.option("--open", "open_it", is_flag=True, help="Open the report in a browser.")
 @click.option(
     "--ioh", type=click.Path(path_type=Path, file_okay=False), help="Also write the searches for IOHprofiler."
 )
@@ -22,7 +21,10 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
     "--keep", type=click.Path(path_type=Path, file_okay=False), help="Copy what is small to this folder, and report it."
 )
 @json_option
-def report(results: Path, open_it: bool, ioh: Path | None, trial: str | None, keep: Path | None, as_json: bool) -> None:
+@open_option
+def report(
+    results: Path, ioh: Path | None, trial: str | None, keep: Path | None, as_json: bool, open_page: bool
+) -> None:
     """Write the report of a results folder again, or the index of a folder of such folders."""
     from hysteresis_bench.diagnosis_study.results import STUDY
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
@@ -47,12 +49,9 @@ def report(results: Path, open_it: bool, ioh: Path | None, trial: str | None, ke
         write_ioh(read_results(results), ioh)
     if as_json:
         say_json({"summary": summary_of(results), "report": page})
-    else:
-        say_path(plain_console(), "report", page)
-        if ioh:
-            say_path(plain_console(), "searches", ioh)
-    if open_it:
-        click.launch(str(page))
+    elif ioh:
+        say_path(plain_console(), "searches", ioh)
+    say_page(plain_console(aside=as_json), page, open_page, "report")
 
 
 def _kept(results: Path, folder: Path) -> Path:

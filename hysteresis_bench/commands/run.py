@@ -11,7 +11,7 @@ import click
 from hysteresis_bench.commands.outputs import check_results, force_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
-from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
 from hysteresis_bench.errors import UserError
 
 if TYPE_CHECKING:
@@ -32,6 +32,7 @@ DONE, FAILED_TRIALS = 0, 1
 @click.option("--scheduler", metavar="ADDRESS", help="Run the trials on the workers of this Dask scheduler.")
 @click.option("--shard", metavar="I/N", help="Run the I-th of N parts only; `merge` puts them together.")
 @json_option
+@open_option
 @force_option
 def run(
     study: Path,
@@ -43,12 +44,14 @@ def run(
     scheduler: str | None,
     shard: str | None,
     as_json: bool,
+    open_page: bool,
     force: bool,
 ) -> None:
     """Run STUDY.toml, or continue it where it stopped; then write and print its report."""
     from hysteresis_bench.commands.terminal.progress import progress_bar
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
     from hysteresis_bench.report.paper.published import check_published_beside
+    from hysteresis_bench.report.study import write_report
     from hysteresis_bench.study.execution.shards import Shard
     from hysteresis_bench.study.results import read_results
     from hysteresis_bench.study.run import Progress, RunOptions, default_folder
@@ -62,7 +65,9 @@ def run(
         if retry or scheduler or shard or instances:
             none = "is a study of diagnosis: it has no --retry, --scheduler, --shard or --instances."
             raise UserError(str(study), none)
-        sys.exit(_run_diagnosis_study(study, trials, jobs, out, console, as_json))
+        code, page = _run_diagnosis_study(study, trials, jobs, out, console, as_json)
+        say_page(console, page, open_page, "report")
+        sys.exit(code)
     check_published_beside(study)
     reached = [Progress(0, 0, None)]
 
@@ -78,24 +83,25 @@ def run(
 
         options = RunOptions(retry, scheduler, part, instances)
         run_with_diagnosis(study, trials=trials, jobs=jobs, out=folder, options=options, on_progress=keep)
+        page = folder if part else write_report(folder)
     if part:
         say_path(console, f"{kept()}; for `merge`, part {part}", folder)
         if as_json:
             say_json({"trials": reached[-1].done, "of": reached[-1].total, "results": folder})
         return
-    sys.exit(_report(read_results(folder), console, as_json))
+    code = _report(read_results(folder), page, console, as_json)
+    say_page(console, page, open_page, "report")
+    sys.exit(code)
 
 
-def _report(results: Results, console: Console, as_json: bool) -> int:
-    """Write and print it; returns the exit code."""
+def _report(results: Results, page: Path, console: Console, as_json: bool) -> int:
+    """Print it; returns the exit code."""
     from hysteresis_bench.commands.report import summary_of
-    from hysteresis_bench.report.study import write_report
     from hysteresis_bench.report.study.console import print_summary
     from hysteresis_bench.report.study.page import how_it_closed
     from hysteresis_bench.study.execution.pool import MACHINE
     from hysteresis_bench.study.results import FINISHED
 
-    page = write_report(results.folder)
     failed = results.trials[~results.trials["status"].isin(FINISHED)]
     several = results.trials["instance"].nunique() > 1
     if as_json:
@@ -113,15 +119,14 @@ def _report(results: Results, console: Console, as_json: bool) -> int:
         console.print("What the machine failed at is done again by `run --retry`.", highlight=False)
     for told in how_it_closed(results):
         console.print(told, highlight=False, markup=False)
-    say_path(console, "report", page)
     unfinished = len(failed) or (results.closing and not results.closing.finished)
     return FAILED_TRIALS if unfinished else DONE
 
 
 def _run_diagnosis_study(
     study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console, as_json: bool
-) -> int:
-    """A study of diagnosis; returns the exit code."""
+) -> tuple[int, Path]:
+    """A study of diagnosis; returns the exit code and the page."""
     from hysteresis_bench.diagnosis_study.results import read_cases
     from hysteresis_bench.diagnosis_study.run import CaseProgress, run_diagnosis_study
     from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
@@ -136,7 +141,6 @@ def _run_diagnosis_study(
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
     page = write_diagnosis_study_page(results_folder)
-    say_path(console, "report", page)
     if as_json:
         say_json({"answer": answer(results_folder), "report": page})
-    return FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE
+    return (FAILED_TRIALS if any(case.status != "done" for case in read_cases(results_folder)) else DONE), page

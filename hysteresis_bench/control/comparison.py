@@ -19,6 +19,8 @@ from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.progress import OnStep, Step, quiet
 
+FASTEST = 1e6
+"""Samples a second of references that last up to six."""
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours
 SHOWN = 1000
@@ -78,6 +80,8 @@ def compare(
     Raises ValueError where units or ranges do not suit, the model has no inverse, its linear section is unstable, or
     the sampling is too slow.
     """
+    if rate > FASTEST:
+        raise ValueError(f"a rate of {rate:g} is more samples than can be held; choose one up to {FASTEST:g}.")
     on_step(Step("tuning"))
     bench = bench_of(fitted, rig, name, rate=rate, amplitude=amplitude)
     scores: list[dict[str, Any]] = []

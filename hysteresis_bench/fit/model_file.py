@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import platform
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field, replace
 from importlib.metadata import version
 from pathlib import Path
@@ -22,6 +22,7 @@ from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.fit.unseen.excited import excited, ranges
 from hysteresis_bench.fit.unseen.interval import Interval, interval, interval_of
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import UNITLESS, Dataset, Record
@@ -152,19 +153,13 @@ def fitted_model(
         {
             "fitted": [record.name for record in dataset.fitted],
             "held_out": [record.name for record in dataset.held_out],
-            "ranges": _ranges(dataset.fitted, preparation),
+            "ranges": ranges(dataset.fitted, preparation),
+            "excited": excited(dataset.fitted),
         },
         error,
         {"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
         interval=interval(problem, values, dataset.held_out),
     )
-
-
-def _ranges(records: Sequence[Record], preparation: Preparation) -> dict[str, list[float]]:
-    """Of input and output as they were measured; records : as the model sees them."""
-    inputs = [preparation.measured_input(float(edge(r.input))) for r in records for edge in (np.min, np.max)]
-    outputs = [float(edge(r.measured)) for r in records for edge in (np.min, np.max)]
-    return {"input": [min(inputs), max(inputs)], "output": [min(outputs), max(outputs)]}
 
 
 def write_model(path: Path, fitted: FittedModel) -> None:

@@ -30,7 +30,8 @@ SPEED = "speed"
 WORK = "the promises, whose kernels are compiled first where they have not been"
 TIMED_OUT = "timed-out"
 HUNG = 600.0
-"""Seconds on top of the limit after which a plugin is killed that cannot be stopped otherwise, as in compiled code."""
+"""Seconds on top of the limit, for compilation, after which a plugin is killed that waits in compiled code and uses no
+processor; one that computes there ends itself by `within`."""
 LONGEST = 500
 """Characters that a plugin's own message may take."""
 

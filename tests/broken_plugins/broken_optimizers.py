@@ -1,5 +1,6 @@
 """Optimizers that break one promise each."""
 
+import itertools
 import random
 import sys
 import threading
@@ -168,6 +169,14 @@ class Hangs(Searches):
     def first(self, objective, start, rng):
         while True:
             time.sleep(1.0)
+
+
+@dataclass(frozen=True)
+class HangsDeep(Searches):
+    """Never returns from compiled code, where Python answers no signal."""
+
+    def first(self, objective, start, rng):
+        return sum(itertools.repeat(0))
 
 
 class Undecorated(Searches):

@@ -55,6 +55,14 @@ def test_a_missing_output_is_told(here):
     assert "--output NAME says which it is" in told("scope.csv", *ROLES[:4])
 
 
+def test_stopped_while_it_reads_it_ends_with_a_sentence(here, monkeypatch):
+    def stopped(*arguments):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("hysteresis_bench.data.data_files._records", stopped)
+    assert "stopped by SIGINT; what it has told of is kept" in " ".join(told("scope.csv", code=130).split())
+
+
 def test_a_line_is_drawn_from_corner_to_corner():
     rows = drawn([(np.arange(5.0), np.arange(5.0))], width=6, height=3).splitlines()
     assert [len(row) for row in rows] == [6, 6, 6]

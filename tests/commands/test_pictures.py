@@ -53,6 +53,11 @@ def test_predict_draws_what_was_not_measured(here):
     assert "Predicted" in (here / "p.svg").read_text(encoding="utf-8")
 
 
+def test_measure_draws_what_it_took(here):
+    assert "figure: m.pdf" in told("measure", "pea", "ramp", "--out", "m.csv", "--plot", "m.pdf")
+    assert (here / "m.pdf").read_bytes().startswith(b"%PDF")
+
+
 def test_control_draws_tracking(here):
     said = told("control", "model.json", "--reference", "loop.csv", "--out", "c")
     assert "figure: c/tracking.svg" in said

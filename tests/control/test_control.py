@@ -370,7 +370,12 @@ def test_command_makes_an_input_that_follows_a_trajectory(tmp_path, invoke):
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
-    [((), "--rig NAME"), (("--rig", "peas"), 'Did you mean "pea"'), (("--rig", "sma"), "These can: pea")],
+    [
+        ((), "--rig NAME"),
+        (("--rig", "peas"), 'Did you mean "pea"'),
+        (("--rig", "sma"), "These can: pea"),
+        (("--rig", "pea", "--rate", "1e9"), "choose one up to 1e+06"),
+    ],
 )
 def test_command_says_what_it_needs(tmp_path, invoke, arguments, words):
     write_model(tmp_path / "model.json", model())

@@ -18,6 +18,7 @@ from hysteresis_bench.control.iterated_inverse import IteratedInverse
 from hysteresis_bench.control.linear_dynamics import Through, undone
 from hysteresis_bench.control.trajectories.driven import drive, forward_of
 from hysteresis_bench.control.trajectories.sweep import sweep
+from hysteresis_bench.control.trajectories.trajectory import follow
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.signals import Signal
@@ -124,7 +125,8 @@ def test_a_sweep_tells_what_to_expect():
     near = table[table["amplitude"] < 2.0]
     assert (near["left"] < 1e-3).all()
     assert near["expected"].to_numpy() == pytest.approx(0.02, rel=1e-2)
-    assert table.loc[table["amplitude"] == 40.0, "beyond"].all()
+    assert set(table.loc[table["amplitude"] == 40.0, "beyond"]) == {"larger"}
+    assert set(near["beyond"]) == {""}
     with pytest.raises(ValueError, match="range of the fitted records"):
         sweep(replace(fitted("bouc-wen", BOUC_WEN), data={}), (1.0,))
     out_of_reach = sweep(fitted("bouc-wen", BOUC_WEN, ("saturation",)), (1.0,), (1.0, 50.0))
@@ -133,6 +135,20 @@ def test_a_sweep_tells_what_to_expect():
     lugre = {"distance": 0.4, "stiction": 1.3, "v_s": 8.0, "slope": 0.4, "F_C": 1.5, "sigma_1": 0.1, "sigma_2": 0.1}
     with pytest.raises(ValueError, match="depends on the rate"):
         sweep(fitted("lugre", lugre), (1.0, 2.0))
+
+
+def test_what_the_fit_has_not_seen_is_told(tmp_path):
+    model = fitted("bouc-wen", BOUC_WEN)
+    seen = replace(model, data={**model.data, "excited": {"frequency": [1.0, 4.0], "amplitude": [1.0, 3.0]}})
+    table = sweep(seen, (0.1, 1.0, 4.5, 10.0), (0.2, 1.9))
+    small, large = table["beyond"][:4], table["beyond"][4:]
+    assert list(small) == ["slower, smaller", "smaller", "smaller", "faster, smaller"]
+    assert list(large) == ["slower", "", "", "faster"]
+    path = tmp_path / "wanted.csv"
+    pd.DataFrame({"time": TIME, "output": WANTED}).to_csv(path, index=False)
+    notes = " ".join(follow(seen, forward_of(seen), path, np.inf).notes)
+    assert "The input turns faster than the fitted ones: 7.9" in notes
+    assert "turns" not in " ".join(follow(model, forward_of(model), path, np.inf).notes)
 
 
 def test_the_command_sweeps(tmp_path, monkeypatch):
@@ -144,6 +160,7 @@ def test_the_command_sweeps(tmp_path, monkeypatch):
     assert len(pd.read_csv(tmp_path / "model-control" / "sweep.csv")) == 8
     shown = CliRunner().invoke(main, ["control", "model.json", "--sweep", "1,10", "--amplitude", "1.9"])
     assert "RMSE expected" in shown.output
+    assert "does not keep how fast" in " ".join(shown.output.split())
     assert "Frequency (1/s)" in (tmp_path / "model-control" / "sweep.svg").read_text(encoding="utf-8")
     refused = CliRunner().invoke(main, ["control", "model.json", "--sweep", "1,x"])
     assert refused.exit_code == 2

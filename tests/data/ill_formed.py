@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.sparse import csc_matrix
 
 TIME = np.arange(50) / 100.0
 INPUT = 5.0 * np.sin(2 * np.pi * TIME / 0.5)
@@ -20,6 +21,7 @@ Write = Callable[[Path], None]
 @dataclass(frozen=True)
 class Case:
     """said : a part of the one sentence, empty where the file is read right;  layout : what the user says
+    told : a part of a note
     units : of the columns, as far as they are stated;  lost : samples left out as gaps;  records : how many"""
 
     write: Write
@@ -29,6 +31,7 @@ class Case:
     lost: tuple[int, ...] = ()
     records: int = 1
     suffix: str = ".csv"
+    told: str = ""
 
 
 def text(header: str, mark: str = ",", decimal: str = ".", encoding: str = "utf-8", **change: Any) -> Write:
@@ -79,6 +82,15 @@ def dotted(lines: list[str]) -> list[str]:
 def grouped(mark: str) -> Callable[[list[str]], list[str]]:
     """A further column with blanks or the like between thousands."""
     return lambda lines: [f"{line};1{mark}200.5" for line in lines]
+
+
+def counted(lines: list[str]) -> list[str]:
+    """Samples by their number in the place of their time."""
+    return [f"{number},{line.partition(',')[2]}," for number, line in enumerate(lines)]
+
+
+def single(mark: str) -> Callable[[list[str]], list[str]]:
+    return lambda lines: [mark.join(f"'{cell}'" for cell in line.split(mark)) for line in lines]
 
 
 def scientific(lines: list[str]) -> list[str]:
@@ -320,6 +332,35 @@ CASES: dict[str, Case] = {
     "xlsx with formulas without values": Case(
         xlsx(Sheet1=[["time", "input", "output"], *[["=ROW()", u, y] for _, u, y in ROWS]]),
         "open it there and save it", suffix=".xlsx",
+    ),
+    "an oscilloscope's start and increment": Case(
+        text("X,CH1,CH2,Start,Increment,\nSequence,Volt,VOLT,-2.0e-01,1.0e-02,", edit=counted),
+        layout={"input": "CH1", "output": "CH2"}, units={"time": "s", "input": "Volt", "output": "volt"},
+    ),
+    "a start and an increment beside the names": Case(
+        text("CH1V,CH2V,t0 =-2.0e-01, tInc = 1.0e-02,", edit=lambda lines: [f"{one}," for one in lines],
+             columns=COLUMNS[:, 1:]), layout={"input": "CH1V", "output": "CH2V"}, units={"time": "s"},
+    ),
+    "a start and an increment beside times": Case(
+        text("Time(s),CH1(V),CH2(V),t0 =0.0, tInc = 1.0e-02,"), layout={"input": "CH1", "output": "CH2"}
+    ),
+    "an increment without a number": Case(text("X,CH1,CH2,Start,Increment", edit=counted), '"time"'),
+    "single quotes": Case(text("'time [s]','input [V]','output [um]'", edit=single(",")), units=SI),
+    "single quotes and decimal commas": Case(text("'time';'input';'output'", ";", ",", edit=single(";"))),
+    "single quotes about names": Case(text("'time','input','output'")),
+    "a header in several lines": Case(text('"time\n[s]","input\n[V]","output\n[um]"'), units=SI),
+    "quoted names between blanks": Case(text('"time" "input" "output"', " "), suffix=".dat"),
+    "several trailing delimiters": Case(text("time,input,output", edit=lambda lines: [f"{one},,," for one in lines])),
+    "npz with what is no column": Case(
+        npz(**RECORD, spectrum=np.fft.fft(OUTPUT), image=np.zeros((9, 9, 9))), suffix=".npz",
+        told="left out: spectrum (complex numbers), image (3 dimensions)",
+    ),
+    "npz with a complex output": Case(npz(**RECORD | {"output": OUTPUT + 1j}), "but complex numbers", suffix=".npz"),
+    "npz with a complex output that is real": Case(npz(**RECORD | {"output": OUTPUT + 0j}), suffix=".npz"),
+    "npz without a column": Case(npz(a=np.ones(9) * 1j), "only a (complex numbers)", suffix=".npz"),
+    "mat with sparse matrices": Case(
+        mat(**RECORD | {"output": csc_matrix(OUTPUT[:, None])}, weights=csc_matrix(np.eye(99))), suffix=".mat",
+        told="left out: weights (a sparse matrix of 99 columns)",
     ),
     "an old spreadsheet": Case(lambda path: path.write_bytes(b"\xd0\xcf\0"), "save it as .xlsx", suffix=".xls"),
     "a broken spreadsheet": Case(lambda path: path.write_bytes(b"PK"), "cannot be read as a spre", suffix=".xlsx"),

@@ -36,6 +36,7 @@ def test_it_is_read_right_or_told(tmp_path, name):
     (row, *_) = dataset.understood
     assert row["samples"] == str(kept.size)
     assert row["gaps"] == str(len(case.lost))
+    assert case.told in " ".join(dataset.notes)
     assert bool(case.lost) == any("left out (row" in note for note in dataset.notes)
 
 

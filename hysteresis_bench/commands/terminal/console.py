@@ -41,9 +41,9 @@ def say_path(console: Console, what: str, path: Path) -> None:
     console.print(f"{what}: {path}", highlight=False, soft_wrap=True)
 
 
-def say_page(console: Console, page: Path, wanted: bool) -> None:
+def say_page(console: Console, page: Path, wanted: bool, what: str = "page") -> None:
     """Where a page is; and opened, where that is wanted and there is a browser."""
-    say_path(console, "page", page)
+    say_path(console, what, page)
     if wanted:
         import webbrowser
 

@@ -12,6 +12,7 @@ import pandas as pd
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.trajectories.driven import drive, forward_of
 from hysteresis_bench.fit.model_file import FittedModel
+from hysteresis_bench.fit.unseen.excited import AMPLITUDE, FREQUENCY, unlike
 from hysteresis_bench.progress import OnStep, Step, quiet
 
 SHARES = (0.1, 0.25, 0.5, 0.9)
@@ -27,11 +28,11 @@ def sweep(
 
     frequencies : 1 / unit of time;  amplitudes : unit of the output, by default SHARES
     left : RMS of the model's answer less the sine;  expected : of that and of the model's own error together
-    beyond : the input leaves the fitted range
+    beyond : in what the input differs from the fitted ones, as words such as "faster, larger", or ""
     reason : why no input was found, "" where one was
     Raises ValueError where no input was found for any, or no amplitude is told and the model keeps no range.
     """
-    forward, own = forward_of(fitted), _own_error(fitted)
+    forward, rmse = forward_of(fitted), _own_error(fitted)
     ranges = fitted.data.get("ranges") or {}
     if not ranges and not amplitudes:
         raise ValueError("the model file does not keep the range of the fitted records; give an amplitude.")
@@ -50,11 +51,14 @@ def sweep(
             continue
         off = (driven.reached - middle - sine)[-SCORED * SAMPLES :]
         left = float(np.sqrt(np.mean(off**2)))
+        scored = driven.input[-SCORED * SAMPLES :]
+        own = {FREQUENCY: (frequency, frequency), AMPLITUDE: (0.5 * float(np.ptp(scored)),) * 2}
+        words = ["larger"] * bool(np.min(driven.input) < least or np.max(driven.input) > most)
         found = {
             "input": float(np.max(np.abs(driven.input))),
             "left": left,
-            "expected": float(np.hypot(left, own)),
-            "beyond": bool(np.min(driven.input) < least or np.max(driven.input) > most),
+            "expected": float(np.hypot(left, rmse)),
+            "beyond": ", ".join(dict.fromkeys([*unlike(fitted.data.get("excited") or {}, own), *words])),
         }
         rows.append(row | found | {"reason": ""})
     if reasons := _everywhere(rows):

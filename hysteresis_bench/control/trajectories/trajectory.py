@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +17,7 @@ from hysteresis_bench.data.units import in_units
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.fit.unseen.excited import FREQUENCY, excited, unlike
 from hysteresis_bench.signals import Dataset, Record
 
 REFERENCE = "reference"
@@ -79,12 +80,12 @@ def follow(
     needed, reached, cut = (each[-record.time.size :] for each in (driven.input, driven.reached, driven.cut))
     notes = (*trajectory.notes, *fitted.preparation.words([record], fitted.units["time"]))
     return Followed(
-        record.time, needed, record.measured, cut, reached, (*notes, *_told(driven), *_beyond(fitted, needed))
+        record.time, needed, record.measured, cut, reached, (*notes, *_told(driven), *_beyond(fitted, record, needed))
     )
 
 
-def _beyond(fitted: FittedModel, needed: Array) -> Iterator[str]:
-    """What the fit cannot vouch for; needed : (samples,) input"""
+def _beyond(fitted: FittedModel, record: Record, needed: Array) -> Iterator[str]:
+    """What the fit cannot vouch for; needed : (samples,) input for the record's output"""
     low, high = fitted.data.get("ranges", {}).get("input", (-np.inf, np.inf))
     room = 1e-6 * (high - low) if np.isfinite(high - low) else 0.0
     share = float(np.mean((needed < low - room) | (needed > high + room)))
@@ -92,6 +93,13 @@ def _beyond(fitted: FittedModel, needed: Array) -> Iterator[str]:
         yield (
             f"{100.0 * share:.2g} % of the samples need an input beyond the fitted ones ({low:.4g} to {high:.4g}): "
             "there the model guesses."
+        )
+    known, own = fitted.data.get("excited") or {}, excited([replace(record, input=needed)])
+    if rate := [word for word in unlike(known, own) if word in ("slower", "faster")]:
+        (low, high), (least, most) = known[FREQUENCY], own[FREQUENCY]
+        yield (
+            f"The input turns {' and '.join(rate)} than the fitted ones: {least:.3g} to {most:.3g} cycles a unit of "
+            f"time, fitted {low:.3g} to {high:.3g}. Where the device knows a rate, the model guesses."
         )
 
 

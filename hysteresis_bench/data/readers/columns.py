@@ -58,7 +58,7 @@ def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> 
         if position is not None and position < width:
             roles[role] = position
         elif role in required or asked is not None:
-            faults.append(_missing(role, asked, names, bool(sheet.headers)))
+            faults.append(_missing(role, asked, names, bool(sheet.headers), sheet.left.get(asked or role)))
     taken: dict[int, list[str]] = {}
     for role, position in roles.items():
         taken.setdefault(position, []).append(role)
@@ -115,8 +115,15 @@ def _counted(names: Sequence[str]) -> str:
     return f"{len(names)} column{'s' if len(names) > 1 else ''}"
 
 
-def _missing(role: str, asked: str | None, names: Sequence[str], headed: bool) -> str:
-    """The sentence on a column that is not found, with the option that helps."""
+def _missing(role: str, asked: str | None, names: Sequence[str], headed: bool, why: str | None) -> str:
+    """The sentence on a column that is not found, with the option that helps.
+
+    why : what stands under its name, where that is no column
+    """
+    if why is not None:
+        return (
+            f'"{asked or role}" is no column of numbers, but {why}. Save it as one, or give another with --{role} NAME.'
+        )
     known = nearest(asked or role, names[:LISTED])
     if not headed:
         return (

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import stat
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from difflib import get_close_matches
 from importlib import import_module
@@ -15,6 +14,7 @@ import pandas as pd
 
 from hysteresis_bench.data.layout import Layout
 from hysteresis_bench.data.readers.apart import read_apart
+from hysteresis_bench.data.readers.arrays import OBJECTS, sheets_of
 from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark
 from hysteresis_bench.data.readers.sheet import TOP, Sheet, top_of, units_in
 from hysteresis_bench.data.readers.text import read_text
@@ -28,12 +28,10 @@ OLD = {
     ".pdf": "save what its tables were made from as CSV",
 }
 DATA = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".mat", ".npz", ".npy", ".h5", ".hdf5")
-OBJECTS = "Object arrays cannot be loaded"
+REFUSED = "Object arrays cannot be loaded"
 """How numpy says that an array holds no numbers."""
 MATLABS_OWN, DEEPEST = ("#refs#", "#subsystem#"), 8
 """Groups of MATLAB 7.3 that hold what others point at; levels of groups that are looked into."""
-MOST_COLUMNS = 64
-"""Columns of an array beyond which it is no table of samples."""
 
 
 def read_sheets(path: Path, layout: Layout) -> list[Sheet]:
@@ -83,11 +81,11 @@ def _read(path: Path, layout: Layout) -> list[Sheet]:
     if suffix in (".xlsx", ".xlsm"):
         return _spreadsheet(path, layout)
     if suffix in (".npz", ".npy"):
-        return _of_arrays(_numpy(path))
+        return sheets_of(path, _numpy(path))
     if suffix == ".mat":
-        return read_apart(lambda: _of_arrays(_matlab(path)), path, _kind(path))
+        return read_apart(lambda: sheets_of(path, _matlab(path)), path, _kind(path))
     if suffix in (".h5", ".hdf5", ".hdf"):
-        return read_apart(lambda: _of_arrays(_hdf5(path)), path, "HDF5")
+        return read_apart(lambda: sheets_of(path, _hdf5(path)), path, "HDF5")
     return [read_text(path, layout)]
 
 
@@ -135,12 +133,11 @@ def _numpy(path: Path) -> Mapping[str, Any]:
         stored = np.load(path, allow_pickle=False)
         if isinstance(stored, np.ndarray):
             return {"": stored}
-        found = {name: _unless_of_objects(stored, name) for name in stored.files}
-        return {name: array for name, array in found.items() if array is not None}
+        return {name: _unless_of_objects(stored, name) for name in stored.files}
     except OSError:
         raise
     except Exception as error:  # a damaged archive raises errors of any type
-        told = str(error) if OBJECTS not in str(error) else "it holds objects. Save plain arrays of numbers"
+        told = str(error) if REFUSED not in str(error) else "it holds objects. Save plain arrays of numbers"
         raise UserError(str(path), f"cannot be read as arrays: {told}.") from None
 
 
@@ -148,8 +145,8 @@ def _unless_of_objects(stored: Any, name: str) -> Any:
     try:
         return stored[name]
     except ValueError as error:
-        if OBJECTS in str(error):
-            return None
+        if REFUSED in str(error):
+            return OBJECTS
         raise
 
 
@@ -205,43 +202,3 @@ def _hdf5(path: Path) -> Mapping[str, Any]:
     except Exception as error:  # a damaged file raises errors of any type
         reason = (str(error).splitlines() or ["it is damaged"])[0]
         raise UserError(str(path), f"cannot be read as HDF5: {reason}.") from None
-
-
-def _of_arrays(stored: Mapping[str, Any], prefix: str = "") -> list[Sheet]:
-    """Columns of one length as a sheet; a table of numbers and a structure as a sheet of its own."""
-    columns, sheets = {}, []
-    for name, value in stored.items():
-        whole = f"{prefix}{name}"
-        if isinstance(value, Mapping):
-            sheets += _of_arrays(value, f"{whole}/")
-            continue
-        array = np.asarray(value)
-        if array.dtype.names:
-            sheets += _of_arrays({field: array[field] for field in array.dtype.names}, f"{whole}/" if whole else "")
-            continue
-        if array.dtype.kind in "mM" and array.size:
-            array, name = (array - array.ravel()[0]) / np.timedelta64(1, "s"), f"{name} [s]"
-        if array.dtype.kind not in "fiub":
-            continue
-        array = np.squeeze(array)
-        if array.ndim == 1 and array.size > 1:
-            columns[name] = array.astype(float)
-        elif array.ndim == 2 and min(array.shape) <= MOST_COLUMNS:
-            notes = ("its rows are the columns",) if array.shape[0] < array.shape[1] else ()
-            upright = array.T if notes else array
-            sheets.append(Sheet(whole, (), (), _indexed(pd.DataFrame(upright.astype(float))), notes=notes))
-    if columns:
-        length = Counter(array.size for array in columns.values()).most_common(1)[0][0]
-        left = [name for name, array in columns.items() if array.size != length]
-        kept = {name: array for name, array in columns.items() if array.size == length}
-        notes = (f"left out, because of another length: {', '.join(left)}",) if left else ()
-        frame = _indexed(pd.DataFrame(kept))
-        headers = tuple(frame.columns)
-        frame.columns = pd.RangeIndex(len(headers))
-        sheets.insert(0, Sheet(prefix.rstrip("/"), headers, (), frame, notes=notes))
-    return sheets
-
-
-def _indexed(frame: pd.DataFrame) -> pd.DataFrame:
-    frame.index = pd.RangeIndex(1, len(frame) + 1)
-    return frame

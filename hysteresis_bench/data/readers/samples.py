@@ -153,6 +153,9 @@ def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str) -> str:
         helps = " Is it a decimal point? Say so with --decimal ."
     elif not too_large and MEASURED.fullmatch(text):
         helps = " Take the unit out of the cells, into the header."
+    elif bad.size == len(cells) and not too_large and name in ROLES:
+        rate = ", or --rate HZ" if name == "time" else ""
+        helps = f" The column holds no number at all; give another with --{name} NAME{rate}."
     elif bad.size <= FEW and (name == "time" or not any(map(looks_like_a_number, measured))):
         helps = " If the line is no sample, take it out, or begin it with #."
     elif name == "time":

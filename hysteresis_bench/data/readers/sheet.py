@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 import pandas as pd
@@ -34,6 +34,7 @@ class Sheet:
     headers : as they stand in the file; empty where it has none;  units : of a line of units, empty where there is none
     cells : text or numbers, a row a sample, indexed by where it stands in the file (from 1)
     decimal : "." or ",";  notes : how it was read, as clauses
+    left : names of what the file holds beside and is no column of numbers, with the reason
     """
 
     name: str
@@ -42,6 +43,7 @@ class Sheet:
     cells: pd.DataFrame
     decimal: str = "."
     notes: tuple[str, ...] = field(default_factory=tuple)
+    left: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)

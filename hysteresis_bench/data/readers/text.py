@@ -13,6 +13,7 @@ from pathlib import Path
 import pandas as pd
 
 from hysteresis_bench.data.layout import Layout
+from hysteresis_bench.data.readers.clocks import clocked
 from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark, looks_like_a_number
 from hysteresis_bench.data.readers.sheet import LONGEST, TOP, Sheet, top_of, units_in
 from hysteresis_bench.errors import UserError
@@ -21,8 +22,14 @@ COMMENT = re.compile(r"\s*(#|%|//|!)")
 CANDIDATES = ("\t", ";", "|", ",", " ")
 """In the order in which they are believed where two do as well."""
 NAMES = {"\t": "tabs", ";": "semicolons", "|": "bars", ",": "commas", " ": "blanks"}
+SINGLE, FEW_CELLS = re.compile(r"(?<![^;,|\s])'([^'\"\n]*)'(?![^;,|\s])"), 2
+"""A cell in single quotes; so many in the first lines make it a custom of the file."""
 PADDING, CONTROL = b"\0\x1a\r\n", re.compile(rb"[\0-\x08\x0e-\x1f]")
 """Bytes that old programs and loggers leave at the end of a file; bytes that no text has."""
+QUOTED = re.compile(r'"[^"]*"|\S+')
+"""A cell between blanks, which it may hold where it is quoted."""
+LINES = 20
+"""Lines that a header may be broken into, within its quotes."""
 MARKUP = re.compile(r"\s*(<[!?A-Za-z]|\{\s*[\"}]|\[\s*[{\[])")
 SAMPLE = 2000
 """Bytes by which an encoding is told."""
@@ -32,7 +39,8 @@ MARKS = ((codecs.BOM_UTF8, "utf-8-sig"), (codecs.BOM_UTF16_LE, "utf-16"), (codec
 def read_text(path: Path, layout: Layout) -> Sheet:
     """The sheet of a text file. Raises UserError for what is no text, no table, or ambiguous."""
     text, notes = _decoded(path)
-    lines = text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    text = _double_quoted(text.replace("\r\n", "\n").replace("\r", "\n"))
+    lines = _with_whole_header(text.split("\n"))
     if not any(line.strip() for line in lines):
         raise UserError(str(path), "is empty.")
     if MARKUP.match(text):
@@ -43,6 +51,9 @@ def read_text(path: Path, layout: Layout) -> Sheet:
         raise UserError(str(path), "cannot be read as CSV: it holds comments only.")
     head = plain[:TOP]
     mark = layout.mark or _delimiter([lines[index] for index in head])
+    if clock := clocked(lines, mark):
+        lines, told = clock
+        notes.append(told)
     rows = [_cells(lines[index], mark) for index in head]
     top = top_of(rows, (layout.time, layout.input, layout.output))
     header = () if top.header is None else tuple(rows[top.header])
@@ -54,8 +65,9 @@ def read_text(path: Path, layout: Layout) -> Sheet:
     first = plain[top.data] if top.data < len(plain) else len(lines)
     if not header:
         header = _header_in_comment(lines, [index for index in comments if index < first], mark, rows, top.data)
-    trailing = max(len(_cells(lines[index], mark, trim=False)) - len(_cells(lines[index], mark)) for index in head)
-    cells = _table(path, lines, first, set(comments), mark, width=len(header) and len(header) + trailing)
+    trailing = _trailing([lines[index] for index in head[top.header or 0 :]], mark, len(header))
+    width = len(header) + max(trailing, 0) if header else 0
+    cells = _table(path, lines, first, set(comments), mark, width=width)
     above = top.data - (top.header is not None) - (top.units is not None)
     if samples := [head[at] + 1 for at in range(top.header or 0) if _numbers(rows[at], len(header))]:
         raise UserError(str(path), f"row {samples[0]} holds samples above the header; put the header first.")
@@ -90,6 +102,23 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
         return text.decode("cp1252", errors="replace"), [*notes, "read as Windows text (cp1252), since it is not UTF-8"]
 
 
+def _double_quoted(text: str) -> str:
+    """The text with double quotes about its cells where the first lines have single ones."""
+    first = text[: 50 * LONGEST]
+    if len(SINGLE.findall(first)) < FEW_CELLS or '"' in first:
+        return text
+    return SINGLE.sub(r'"\1"', text)
+
+
+def _with_whole_header(lines: list[str]) -> list[str]:
+    """The lines, a header whose quoted cells are broken into lines as one, empty ones after it."""
+    for count in range(1, min(LINES, len(lines)) if lines[0].count('"') % 2 else 1):
+        whole = " ".join(lines[: count + 1])
+        if whole.count('"') % 2 == 0:
+            return [whole, *[""] * count, *lines[count + 1 :]]
+    return lines
+
+
 def _is_header(line: str, layout: Layout) -> bool:
     """A header may begin with a comment's mark where the user names a column so."""
     named = [name for name in (layout.time, layout.input, layout.output) if name]
@@ -99,12 +128,18 @@ def _is_header(line: str, layout: Layout) -> bool:
 def _cells(line: str, mark: str, trim: bool = True) -> list[str]:
     """A line's cells; trim : leave out what is empty behind a trailing delimiter."""
     if mark == " ":
-        return line.split()
+        return [cell.strip('"') for cell in QUOTED.findall(line)]
     try:
         cells = next(csv.reader([line], delimiter=mark), [])
     except csv.Error:
         cells = line.split(mark)
     return cells[:-1] if trim and len(cells) > 1 and not cells[-1].strip() else cells
+
+
+def _trailing(lines: Sequence[str], mark: str, width: int) -> int:
+    """How many empty cells lines have behind a header's."""
+    rows = (_cells(line, mark, trim=False) for line in lines)
+    return max((len(cells) - width for cells in rows if not any(map(str.strip, cells[width:]))), default=0)
 
 
 def _delimiter(lines: Sequence[str]) -> str:

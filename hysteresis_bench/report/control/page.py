@@ -218,10 +218,10 @@ def _erred(folder: Path, reference: str, parts: Parts, names: list[str], compari
             axes.plot(part["time"], part["error"], color=COLOURS[names.index(name)], linewidth=0.9, label=name)
         axes.set_yscale("symlog", linthresh=linear)
         axes.set(xlabel=named("Time", units, "time"), ylabel=named("Error", units, "output"))
-        legend(axes, 3)
+        legend(axes, 2)
 
     return picture(
-        folder, f"error-{reference}", (4.6, 2.9), alt=f"Tracking error over time. {caption}", caption=caption, draw=draw
+        folder, f"error-{reference}", (4.6, 3.1), alt=f"Tracking error over time. {caption}", caption=caption, draw=draw
     )
 
 

@@ -134,7 +134,10 @@ def draw_tracking(path: Path, columns: dict[str, Array], units: Units) -> None:
 
 
 def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
-    """Expected error over frequency, a line an amplitude; table : as `sweep` makes it"""
+    """Expected error over frequency, a line an amplitude, its marks hollow where the fit has not seen the like.
+
+    table : as `sweep` makes it
+    """
 
     def draw(figure: Any) -> None:
         axes = figure.subplots()
@@ -142,12 +145,15 @@ def draw_sweep(path: Path, table: pd.DataFrame, units: Units) -> None:
             colour, share = SERIES[place % len(SERIES)], 100.0 / rows["amplitude"]
             errors, label = share * rows["expected"], f"{amplitude:.3g}"
             axes.plot(rows["frequency"], errors, color=colour, marker="o", markersize=3, label=label)
+            guessed = rows["beyond"] != ""
+            axes.plot(rows["frequency"][guessed], errors[guessed], "o", color=colour, markersize=3, markerfacecolor="w")
         axes.set_xscale("log")
         axes.xaxis.set_major_formatter("{x:g}")
         axes.set_ylim(bottom=0.0)
         axes.set_xlabel(f"Frequency (1/{units['time']})")
         axes.set_ylabel("Expected RMS error\n(% of amplitude)")
-        title = named("Amplitude", units, "output")
+        hollow = "; hollow: unlike the fit" if (table["beyond"].fillna("") != "").any() else ""
+        title = f"{named('Amplitude', units, 'output')}{hollow}"
         figure.legend(loc="outside upper left", ncols=4, handlelength=1.4, title=title, alignment="left")
 
     save_figure(path, 2.9, draw)

@@ -27,6 +27,8 @@ ATTEMPTS = 10
 """Templates that may end in a row without one becoming ready."""
 OUTSIDE = (signal.SIGKILL, signal.SIGTERM)
 """Signals that no fault of a program's own raises."""
+OWN_LIMIT = signal.SIGPROF
+"""Ends a worker that has set itself a limit of the processor's time, and hangs in compiled code."""
 
 MACHINE = ("killed", "out-of-memory", "not-started")
 """Statuses that say more of the machine than of the ticket: worth another try."""
@@ -251,6 +253,8 @@ def verdict(code: int) -> Failure:
     """Why a worker ended that was not told to. code : as of subprocess, minus the signal"""
     if -code in OUTSIDE:
         return Failure("killed", f"killed from outside by {_named(-code)}, as the system does when memory runs out")
+    if -code == OWN_LIMIT:
+        return Failure("timed-out", "stopped, as it hangs in compiled code")
     if code < 0:
         return Failure("crashed", f"the worker process was ended by {_named(-code)}")
     return Failure("crashed", f"the worker process ended with exit code {code}")

@@ -6,14 +6,10 @@ from collections.abc import Mapping
 from typing import Any, NoReturn
 
 
-def temperature_sensitivity(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
+def temperature(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
     raise ValueError("it needs the temperature, and a step is given time and input alone")
 
 
 def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
     if effect.terms:
         raise ValueError("its terms are made of a whole record, samples to come included")
-
-
-def free_form(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
-    raise ValueError("it is a curve without a formula, of which no form of one sample at a time is written")
