@@ -9,6 +9,7 @@ from typing import Any
 import pandas as pd
 
 from hysteresis_bench.diagnosis.findings.diagnosis_file import MODEL, KeptDiagnosis, read_diagnosis
+from hysteresis_bench.diagnosis.structure.curves import read_curves
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.report.diagnosis.before_after import (
@@ -21,6 +22,7 @@ from hysteresis_bench.report.diagnosis.before_after import (
 from hysteresis_bench.report.diagnosis.figures import family_curve
 from hysteresis_bench.report.diagnosis.tables import added_table, agreement_table, candidates_table, tests_tables
 from hysteresis_bench.report.laws.memory import memory_section
+from hysteresis_bench.report.laws.structure import structure_section
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
 from hysteresis_bench.report.shared.page import Page, Section
@@ -64,6 +66,7 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
         table = laws_table(laws["laws"], found["model"], laws["floor"], units)
         yield Section("laws", "Which law", [laws["words"], Figures([drawn]), table])
+        yield structure_section(folder, told, read_curves(folder), units) if (told := laws["structure"]) else None
     yield _memory(folder, kept)
     yield _families(folder, found["families"])
     yield _records(folder, kept)

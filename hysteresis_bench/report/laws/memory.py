@@ -37,6 +37,8 @@ def memory_section(folder: Path, fitted: FittedModel, inputs: Sequence[Array]) -
 
     inputs : (samples,) of the fitted records each, as they are measured
     """
+    for name in (DENSITY, EVERETT):  # of another law, fitted before
+        (folder / name).unlink(missing_ok=True)
     ends = fitted_range(fitted)
     if ends is None:
         return None
