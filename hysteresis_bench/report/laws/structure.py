@@ -64,6 +64,7 @@ def _small(folder: Path, finding: Mapping[str, Any], curves: Sequence[Curve], un
             _powers(upper, curves, float(finding["statistic"]))
         else:
             _curves(upper, curves)
+            upper.locator_params(axis="x", nbins=5)
         upper.set_ylabel(_upwards(finding, units))
         for lower in strip:
             if finding.get("noise") is not None:
