@@ -2,8 +2,12 @@
 
 import re
 
+import numpy as np
+from matplotlib.colors import to_hex
+
 from hysteresis_bench.diagnosis.structure.curves import read_curves, write_curves
 from hysteresis_bench.diagnosis.structure.structure import structure
+from hysteresis_bench.report.laws.maps import ABOVE, BELOW, scale, shades
 from hysteresis_bench.report.laws.structure import structure_section
 from hysteresis_bench.report.shared.page import Page
 from tests.diagnosis.structure.made import minor_loops, plays, seen
@@ -36,3 +40,16 @@ def test_a_diagnosis_of_before_there_were_curves_has_the_table_alone(tmp_path):
         for key in ("refutes", "noise", "along"):
             del finding[key]
     assert len(structure_section(tmp_path, told, read_curves(tmp_path), UNITS).blocks) == 1
+
+
+def test_the_shades_of_a_map_part_at_zero():
+    for low, high in ((0.0, 3.0), (-2.0, 0.0), (-1.0, 4.0)):
+        limits = scale(np.linspace(low, high, 200))
+        assert 0.0 in limits
+        assert limits[0] <= 0.98 * low
+        assert limits[-1] >= 0.97 * high
+        colours = shades(limits)
+        hues = [to_hex(colour) for colour in colours]
+        assert hues == [ABOVE if edge >= 0.0 else BELOW for edge in limits[:-1]]
+        assert max(colour[3] for colour in colours) > 0.9
+    assert set(scale(np.append(np.linspace(0.0, 3.0, 500), -50.0))) == set(scale(np.linspace(0.0, 3.0, 500)))

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.report.shared.text import number
 from hysteresis_bench.report.shared.theme import GRID, MUTED, SERIES
 
 ABOVE, BELOW = SERIES[0], SERIES[1]
@@ -53,7 +54,8 @@ def coloured(axes: Any, limits: Array, colours: list[tuple[float, float, float, 
     shown = ScalarMappable(BoundaryNorm(limits, len(colours)), ListedColormap(colours))
     every = 1 + len(limits) // 8
     ticks = limits[int(np.argmin(np.abs(limits))) % every :: every]
-    bar = axes.figure.colorbar(shown, ax=axes, label=label, ticks=ticks, shrink=0.9, aspect=16)
+    bar = axes.figure.colorbar(shown, ax=axes, label=label, shrink=0.9, aspect=16)
+    bar.set_ticks(ticks, labels=[number(tick, 3).replace("-", "−") for tick in ticks])
     bar.outline.set_edgecolor(MUTED)
     bar.outline.set_linewidth(0.5)
     bar.ax.tick_params(length=2)

@@ -17,7 +17,7 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.inspection.memory import Density, Everett, density, everett, fitted_range, ways
 from hysteresis_bench.kernels.turning_points import turning_points
-from hysteresis_bench.report.laws.maps import coloured, scale, shades, triangle
+from hysteresis_bench.report.laws.maps import SLIGHT, coloured, scale, shades, triangle
 from hysteresis_bench.report.shared.blocks import Figures
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import Units, listed, named, number
@@ -138,6 +138,7 @@ def _surfaces(folder: Path, fitted: FittedModel, found: Everett, inputs: Sequenc
     of_density = (
         "The density that follows, minus the mixed derivative: small loops lie near the diagonal, on which lies what "
         f"has no memory, wide ones at the upper left. {whole}"
+        f"{' Below zero: loops that run clockwise.' if np.nanmin(mixed) < -SLIGHT * np.nanmax(np.abs(mixed)) else ''}"
     )
     drawn = [
         _surface(folder, "everett", (levels, found.values, _unit(units, 0)), units, told, inputs),
