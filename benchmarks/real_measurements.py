@@ -25,7 +25,7 @@ from hysteresis_bench import load
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.report.diagnosis.figures import waterfall
+from hysteresis_bench.report.diagnosis.figures import bars_of, waterfall
 from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Paragraph, Table
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
 from hysteresis_bench.report.shared.text import NONE, listed, number, sentence
@@ -297,9 +297,9 @@ def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mappin
 def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[Mapping[str, str]]) -> Section:
     """A case: what is known of the device, what was found, step by step."""
     held_out = (_float(one["held_out_before"]), _float(one["held_out_after"]))
-    bars = [(step["step"], float(step["rmse"])) for step in steps]
+    bars = bars_of([(step["step"], float(step["rmse"])) for step in steps], held_out)
     name = "".join(c for c in case.name if c.isalnum())
-    drawn, parameters = waterfall(folder, bars, held_out, units={"output": one["unit"]}, name=name), _parameters(one)
+    drawn, parameters = waterfall(folder, bars, units={"output": one["unit"]}, name=name), _parameters(one)
     ties = [f"These records do not tell apart: {one['ties']}."] if one["ties"] else []
     advice = [one["advice"]] if one["advice"] else []
     blocks: list[Block] = [Paragraph(sentence(f"{case.device}: {case.known}"), "note"), one["headline"]]

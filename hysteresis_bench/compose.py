@@ -66,6 +66,10 @@ class System:
             wrapped = _around(effect, wrapped, p)
         return wrapped(signal)
 
+    def model_values(self, values: Array) -> Any:
+        """The model's own, as it takes them: a namedtuple of (swarm,) arrays."""
+        return self._named(values)[0]
+
     def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
         simulated = self.simulate(record.signal, values)

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.units import seconds_in
 from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed
 from hysteresis_bench.signals import INDEX, Record
+
+Values = TypeVar("Values", float, Array)
 
 SHOWN = 8
 """Names that a sentence lists."""
@@ -36,15 +40,19 @@ class Preparation:
 
     def __call__(self, record: Record) -> Record:
         """The record as the model sees it; one that is no closed loop is passed once."""
-        sign = -1.0 if self.flip else 1.0
-        ready = replace(self.skipped(record), input=sign * (record.input - self.input_offset))
+        ready = replace(self.skipped(record), input=self.seen_input(record.input))
         return ready.settled(self.settle) if self.settle and is_closed(record) else ready
 
     def skipped(self, record: Record) -> Record:
         """The record as it is, its beginning turned into history."""
         return record.skip(seconds_in(record.units.get("time", "s"), self.skip)) if self.skip else record
 
-    def measured_input(self, seen: float) -> float:
+    def seen_input(self, measured: Array) -> Array:
+        """The input that the model sees for the actuator's."""
+        sign = -1.0 if self.flip else 1.0
+        return sign * (measured - self.input_offset)
+
+    def measured_input(self, seen: Values) -> Values:
         """The actuator's input for the one that the model sees."""
         return (-seen if self.flip else seen) + self.input_offset
 

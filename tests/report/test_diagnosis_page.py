@@ -15,12 +15,15 @@ from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
 from hysteresis_bench.diagnosis.findings.advice import Advice
-from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, DRAWN, RESPONSES, write_diagnosis
+from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, DRAWN, RESPONSES, as_dict, write_diagnosis
 from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
 from hysteresis_bench.diagnosis.findings.ties import tie
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.accuracy import Accuracy
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
+from hysteresis_bench.report.diagnosis.before_after import bars_from
+from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, waterfall
 from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
 from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
 
@@ -214,3 +217,25 @@ def test_what_nothing_was_added_to_is_drawn_once(tmp_path, diagnosis):
     page = _written(tmp_path, replace(diagnosis, responses=same))
     assert "loop-1-other-before" not in page
     assert "Measured and simulated." in page
+
+
+def test_law_and_effects_are_one_waterfall_where_the_law_was_sought(diagnosis):
+    found = as_dict(diagnosis)
+    bars = [(bar.label, bar.fitted, bar.unseen) for bar in bars_from(found)]
+    assert bars == [
+        ("bouc-wen alone", 0.3, 0.6),
+        ("+ input-lag", 0.02, 0.04),
+        ("noise in the data", 0.02, None),
+    ]
+    laws = [{"law": "bouc-wen", "fitted": 0.3, "held_out": 0.6}, {"law": BASELINE, "fitted": 2.0, "held_out": 2.2}]
+    sought = bars_from({**found, "laws": {"laws": laws}})
+    assert [(bar.label, bar.fitted, bar.unseen) for bar in sought] == [(BASELINE, 2.0, 2.2), *bars]
+
+
+def test_a_polynomial_far_above_does_not_hide_the_effects(tmp_path):
+    bars = bars_of([("law alone", 0.3), ("lag", 0.1), ("noise", 0.02)], (None, None))
+    far, near = (waterfall(tmp_path, [Bar("none", rmse, WITHOUT), *bars], units={}) for rmse in (9.0, 0.5))
+    assert "The bar with an arrow goes on" in far.caption
+    assert "without memory" in near.caption
+    assert "arrow" not in near.caption
+    assert ">9<" in far.inline

@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pandas as pd
 
+from hysteresis_bench import registry
 from hysteresis_bench.report.fit.page import write_fit_page
 from tests.report.links import parsed
 
@@ -63,3 +64,37 @@ def test_a_fit_without_held_out_records_says_so(tmp_path):
     fit = {**FIT, "records": FIT["records"][:1]}
     html = write_fit_page(tmp_path, fit, fit_responses()).read_text(encoding="utf-8")
     assert "No record was held out" in html
+
+
+def test_the_law_of_plays_shows_its_weights_and_another_its_everett_function(tmp_path):
+    from hysteresis_bench.fit.model_file import Estimate, FittedModel
+    from hysteresis_bench.report.laws.memory import memory_section
+
+    units, ranges = {"time": "s", "input": "V", "output": "um"}, {"ranges": {"input": [-2.0, 3.0]}}
+    inputs = [3.0 * np.sin(np.linspace(0.0, 20.0, 400))]
+
+    def page(model):
+        law = registry.build("models", model, {})
+        estimates = {name: Estimate(value, None, "1") for name, value in law.example.parameters.items()}
+        fitted = FittedModel(model, {}, (), {}, units, estimates, data=ranges)
+        section = memory_section(tmp_path, fitted, inputs)
+        html = write_fit_page(tmp_path, FIT, fit_responses(), section).read_text(encoding="utf-8")
+        assert len(html) < 2e6
+        links = parsed(html)
+        assert all((tmp_path / source).is_file() for source in links.sources if not source.startswith("#"))
+        return html
+
+    html = page("prandtl-ishlinskii")
+    assert "slope of each play" in html
+    assert "μm/V" in html
+    table = pd.read_csv(tmp_path / "density.csv")
+    assert list(table) == ["threshold", "weight"]
+    assert len(table) == 12
+    html = page("bouc-wen")
+    assert "A law without return-point memory and congruent loops does more than they tell." in html
+    assert set(pd.read_csv(tmp_path / "everett.csv")["quantity"]) == {"everett", "density"}
+    assert "What the law remembers" not in page_without_memory(tmp_path)
+
+
+def page_without_memory(folder):
+    return write_fit_page(folder, FIT, fit_responses()).read_text(encoding="utf-8")

@@ -28,6 +28,7 @@ from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import LEVEL
+from hysteresis_bench.diagnosis.structure.curves import write_curves
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import write_model
 from hysteresis_bench.registry import DESCRIPTION
@@ -70,6 +71,8 @@ def write_diagnosis(folder: Path, diagnosis: Diagnosis, files: Sequence[Path] = 
     write_model(folder / MODEL, replace(diagnosis.model, data=data))
     parts = [_thinned(rows) for _, rows in diagnosis.responses.groupby("record", sort=False)]
     write_table(folder / RESPONSES, pd.concat(parts), digits=7)
+    if diagnosis.laws is not None and diagnosis.laws.structure is not None:
+        write_curves(folder, diagnosis.laws.structure.findings)
     path = folder / DIAGNOSIS
     content = _plain({**as_dict(diagnosis), "data": data})
     path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")

@@ -98,7 +98,7 @@ def unlike(
     cells = _comparable(cells)
     if len(cells) < 2:
         return None
-    design = np.hstack([_columns([cell.place for cell in cells]), _columns([cell.constant for cell in cells])])
+    design = np.hstack([columns([cell.place for cell in cells]), columns([cell.constant for cell in cells])])
     basis, sizes, _ = np.linalg.svd(design, full_matrices=False)
     basis = basis[:, sizes > 1e-9 * sizes[0]]
     if basis.shape[1] >= len(cells):
@@ -140,7 +140,7 @@ def _comparable(cells: Sequence[Cell]) -> list[Cell]:
     return [cell for cell in cells if cell.place in many]
 
 
-def _columns(labels: Sequence[Hashable]) -> Array:
+def columns(labels: Sequence[Hashable]) -> Array:
     """A column of zeros and ones for every label but None."""
     known = {label: column for column, label in enumerate(dict.fromkeys(one for one in labels if one is not None))}
     columns = np.zeros((len(labels), len(known)))

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
-from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.structure.cells import Unlike
 from hysteresis_bench.diagnosis.structure.course import Course
+from hysteresis_bench.diagnosis.structure.curves import Curve, compared
 
 Name: TypeAlias = Literal[
     "sense",
@@ -37,7 +36,8 @@ class Finding:
     p : of the noise alone;  words : a sentence with the consequence, or why there is no test
     least : RMSE that a law which has the property leaves at least on these records, unit of the output
     mixed : records answer differently
-    curves : what a small picture shows, (x, y) each;  along : what x is
+    noise : in % of the output's range, NaN where the statistic is not
+    curves : what a small picture shows;  along : what their x is
     """
 
     name: Name
@@ -47,7 +47,8 @@ class Finding:
     least: float = 0.0
     unit: str = "%"
     mixed: bool = False
-    curves: tuple[tuple[Array, Array], ...] = ()
+    noise: float = np.nan
+    curves: tuple[Curve, ...] = ()
     along: str = ""
 
     @property
@@ -63,7 +64,8 @@ class Finding:
     def as_dict(self) -> dict[str, Any]:
         """For a JSON file."""
         told = {"test": self.name, "applies": self.applies, "statistic": self.statistic, "unit": self.unit}
-        return {**told, "p_value": self.p, "least_rmse": self.least, "words": self.words}
+        told |= {"p_value": self.p, "refutes": self.refutes, "least_rmse": self.least, "words": self.words}
+        return {**told, "noise": self.noise, "along": self.along}
 
 
 def told(
@@ -75,23 +77,6 @@ def told(
     share, noise = course.share(found.rms), course.share(course.noise.rms)
     said = f"{differ} {share:.2g} % of the range (RMS), the noise is {noise:.2g} %"
     sentence = f"{said}: {why}." if found.p < LEVEL else f"{said}: as it should be (p = {found.p:.2g})."
-    return Finding(name, sentence, share, found.p, found.least, curves=pictured(course, found), along=along)
-
-
-def pictured(course: Course, found: Unlike, most: int = 12) -> tuple[tuple[Array, Array], ...]:
-    """The longest of the curves that were compared, their constants taken off."""
-    common: dict[Any, list[float]] = {}
-    values = [cell.sign * float(cell.weights @ cell.branch.y) for cell in found.cells]
-    for cell, value, left in zip(found.cells, values, found.left, strict=True):
-        common.setdefault(cell.place, []).append(value - left)
-    middle = {place: float(np.mean(parts)) for place, parts in common.items()}
-    curves: dict[int, list[tuple[float, float]]] = {}
-    for cell, left in zip(found.cells, found.left, strict=True):
-        curves.setdefault(id(cell.branch), []).append((cell.at, middle[cell.place] + left))
-    longest = sorted(curves.values(), key=len, reverse=True)[:most]
-    return tuple(_sorted(points) for points in longest if len(points) > 1)
-
-
-def _sorted(points: Sequence[tuple[float, float]]) -> tuple[Array, Array]:
-    x, y = np.array(sorted(points)).T
-    return x, y
+    return Finding(
+        name, sentence, share, found.p, found.least, noise=noise, curves=compared(course, found), along=along
+    )

@@ -11,7 +11,8 @@ from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.report.diagnosis.figures import Steps, loops, residuals, waterfall
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE
+from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, loops, residuals, waterfall
 from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent, sentence
 from hysteresis_bench.report.shared.theme import Picture
@@ -52,14 +53,17 @@ def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, *,
 
 
 def step_by_step(folder: Path, found: Mapping[str, Any], units: Units, *, name: str = "waterfall") -> Picture:
-    """The error from the bare model via each adopted effect to the noise."""
-    return waterfall(folder, *steps_of(found), units=units, name=name)
+    """The error from the bare model, or from no memory at all, via each adopted effect to the noise."""
+    return waterfall(folder, bars_from(found), units=units, name=name)
 
 
-def steps_of(found: Mapping[str, Any]) -> tuple[Steps, tuple[float | None, float | None]]:
-    """What `waterfall` draws: the steps, and the errors on what was not fitted."""
+def bars_from(found: Mapping[str, Any]) -> list[Bar]:
+    """What `waterfall` draws; where the law was sought, beginning with the polynomial that every law must beat."""
     before, after = ((found[stage]["held_out"] or {}).get("rmse") for stage in ("before", "after"))
-    return [(step["system"], step["rmse"]) for step in found["waterfall"]], (before, after)
+    bars = bars_of([(step["system"], step["rmse"]) for step in found["waterfall"]], (before, after))
+    laws = (found.get("laws") or {"laws": []})["laws"]
+    without = [Bar(BASELINE, law["fitted"], WITHOUT, law["held_out"]) for law in laws if law["law"] == BASELINE]
+    return [*without, *bars]
 
 
 def record_blocks(folder: Path, place: str, rows: pd.DataFrame, *, noise: float, units: Units) -> list[Block]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import pandas as pd
 
@@ -12,68 +12,76 @@ from hysteresis_bench.report.shared.papers import COLUMN
 from hysteresis_bench.report.shared.text import Units, named, number
 from hysteresis_bench.report.shared.theme import GRID, INK, MUTED, SERIES, Picture, legend, numbers_beside, picture
 
-BEFORE, AFTER, NOISE, HELD_OUT = SERIES[1], SERIES[0], SERIES[2], SERIES[3]
+WITHOUT, BEFORE, AFTER, NOISE, HELD_OUT = MUTED, SERIES[1], SERIES[0], SERIES[2], SERIES[3]
 
-Steps = Sequence[tuple[str, float]]
-"""Label and RMSE on the fitted records: the bare model, each adopted effect, the noise last."""
+CUT = 3.0
+"""Times the largest of the other errors from where the polynomial's bar is cut: the effects must stay visible."""
 
 
-def waterfall(
-    folder: Path,
-    steps: Steps,
-    held_out: tuple[float | None, float | None],
-    *,
-    units: Units,
-    name: str = "waterfall",
-) -> Picture:
-    """From the bare model via each adopted effect to the noise.
+class Bar(NamedTuple):
+    """fitted : RMSE on the fitted records;  unseen : on what was not fitted, where it is told"""
 
-    held_out : RMSE before and after, on what was not fitted
-    """
+    label: str
+    fitted: float
+    colour: str
+    unseen: float | None = None
+
+
+def bars_of(steps: Sequence[tuple[str, float]], held_out: tuple[float | None, float | None]) -> list[Bar]:
+    """Of labels with their RMSE: the bare model, each adopted effect, the noise last; held_out : before and after"""
+    (bare, error), *added, (_, noise) = steps
+    bars = [Bar(bare, error, BEFORE, held_out[0]), *(Bar(f"+ {label}", rmse, AFTER) for label, rmse in added)]
+    return [*bars[:-1], bars[-1]._replace(unseen=held_out[1]), Bar("noise in the data", noise, NOISE)]
+
+
+def waterfall(folder: Path, bars: Sequence[Bar], *, units: Units, name: str = "waterfall") -> Picture:
+    """From the first bar via the law and each adopted effect to the noise, which is the last."""
 
     def draw(figure: Any) -> None:
-        draw_waterfall(figure.add_subplot(), steps, held_out, units)
+        draw_waterfall(figure.add_subplot(), bars, units)
 
-    steps_in_words = ", ".join(f"{label} {value:.3g}" for label, value in _named(steps))
+    steps_in_words = ", ".join(f"{bar.label} {bar.fitted:.3g}" for bar in bars)
+    without = bars[0].colour == WITHOUT
     caption = (
-        "Error on the fitted records, bare model first, each bar with the effects above it; grey is what the effect "
-        "takes away. Diamonds: error on what was not fitted, bare and final."
+        "Error on the fitted records"
+        f"{': without memory, then of the law alone' if without else ', bare model first'}, each bar with the effects "
+        f"above it; grey is what {'the law or the effect' if without else 'the effect'} takes away. Diamonds: error on "
+        f"what was not fitted.{' The bar with an arrow goes on.' if _end(bars) < bars[0].fitted else ''}"
     )
-    height = 1.25 + 0.36 * len(steps)
+    height = 1.25 + 0.36 * len(bars)
     return picture(folder, name, (5.4, height), alt=f"RMSE step by step: {steps_in_words}.", caption=caption, draw=draw)
 
 
-def draw_waterfall(axes: Any, steps: Steps, held_out: tuple[float | None, float | None], units: Units) -> None:
+def draw_waterfall(axes: Any, bars: Sequence[Bar], units: Units) -> None:
     """The bars of `waterfall`."""
-    labels, values = zip(*_named(steps), strict=True)
-    last = len(steps) - 2
-    for row, value in enumerate(values):
-        colour = NOISE if row > last else BEFORE if row == 0 else AFTER
-        axes.barh(row, value, height=0.55, color=colour, zorder=3)
-        if 0 < row <= last:
-            gain = values[row - 1] - value
-            axes.barh(row, gain, left=value, height=0.55, color=GRID, edgecolor=MUTED, linewidth=0.6, zorder=2)
-    axes.axvline(values[-1], color=NOISE, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
-    for row, error in ((0, held_out[0]), (last, held_out[1])):
-        if error is not None:
-            axes.plot(error, row, "D", color=HELD_OUT, markersize=6, zorder=4, clip_on=False)
-    columns = [("fitted", INK, {row: number(value, 3) for row, value in enumerate(values)})]
-    if any(value is not None for value in held_out):
-        unseen = {0: number(held_out[0], 3), last: number(held_out[1], 3)}
+    end, last = _end(bars), len(bars) - 2
+    for row, bar in enumerate(bars):
+        axes.barh(row, min(bar.fitted, end), height=0.55, color=bar.colour, zorder=3)
+        if 0 < row <= last and (above := min(bars[row - 1].fitted, end)) > bar.fitted:
+            gain = above - bar.fitted
+            axes.barh(row, gain, left=bar.fitted, height=0.55, color=GRID, edgecolor=MUTED, linewidth=0.6, zorder=2)
+        if bar.fitted > end:
+            axes.plot(end, row, ">", color=bar.colour, markersize=11, zorder=3, clip_on=False)
+        if bar.unseen is not None and bar.unseen <= end:
+            axes.plot(bar.unseen, row, "D", color=HELD_OUT, markersize=6, zorder=4, clip_on=False)
+    axes.axvline(bars[-1].fitted, color=NOISE, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
+    columns = [("fitted", INK, {row: number(bar.fitted, 3) for row, bar in enumerate(bars)})]
+    if unseen := {row: number(bar.unseen, 3) for row, bar in enumerate(bars) if bar.unseen is not None}:
         columns.append(("not fitted", HELD_OUT, unseen))
     numbers_beside(axes, columns)
-    axes.set_yticks(range(len(labels)), labels)
+    axes.set_yticks(range(len(bars)), [bar.label for bar in bars])
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
-    axes.set_xlim(0, 1.03 * max([*values, *(value for value in held_out if value is not None)]))
+    axes.set_xlim(0, 1.03 * end)
     axes.ticklabel_format(axis="x", scilimits=(-3, 5), useMathText=True)
     axes.set_xlabel(named("RMSE", units, "output"))
 
 
-def _named(steps: Steps) -> list[tuple[str, float]]:
-    """The steps with the labels of their bars."""
-    (bare, error), *added, (_, noise) = steps
-    return [(bare, error), *((f"+ {label}", value) for label, value in added), ("noise in the data", noise)]
+def _end(bars: Sequence[Bar]) -> float:
+    """The largest error, but for a polynomial's that would hide the others."""
+    errors = [(bar.colour == WITHOUT, max(bar.fitted, bar.unseen or 0.0)) for bar in bars]
+    law = max(error for without, error in errors if not without)
+    return max(law, min(max(error for _, error in errors), CUT * law))
 
 
 def loops(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str) -> list[Picture]:

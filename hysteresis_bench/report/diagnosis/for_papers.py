@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis
-from hysteresis_bench.report.diagnosis.before_after import steps_of
+from hysteresis_bench.report.diagnosis.before_after import bars_from
 from hysteresis_bench.report.diagnosis.figures import draw_loop, draw_residual, draw_waterfall, stages
 from hysteresis_bench.report.shared.papers import save_figure
 
@@ -21,7 +21,7 @@ def draw_diagnosis(path: Path, folder: Path) -> None:
     """
     kept = read_diagnosis(folder)
     found, units = kept.diagnosis, kept.model["units"]
-    steps, held_out = steps_of(found)
+    steps = bars_from(found)
     records = [rows for _, rows in kept.responses.groupby("record", sort=False)]
     rows = next((rows for rows in records if rows["role"].iloc[0] == "held-out"), records[0])
     bars = 0.6 + 0.3 * len(steps)
@@ -29,7 +29,7 @@ def draw_diagnosis(path: Path, folder: Path) -> None:
     def draw(figure: Any) -> None:
         above, below = figure.subfigures(2, 1, height_ratios=(bars, BELOW))  # each with margins of its own
         upper, (loop, residual) = above.subplots(), below.subplots(2, 1, height_ratios=(2, 1))
-        draw_waterfall(upper, steps, held_out, units)
+        draw_waterfall(upper, steps, units)
         upper.set_yticks(
             [tick - 0.46 for tick in upper.get_yticks()],  # above the bars, which a column leaves no room beside
             [label.get_text() for label in upper.get_yticklabels()],

@@ -8,7 +8,10 @@ from typing import Any
 
 import pandas as pd
 
-from hysteresis_bench.diagnosis.findings.diagnosis_file import KeptDiagnosis, read_diagnosis
+from hysteresis_bench.diagnosis.findings.diagnosis_file import MODEL, KeptDiagnosis, read_diagnosis
+from hysteresis_bench.diagnosis.structure.curves import read_curves
+from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.report.diagnosis.before_after import (
     besides_ties,
     errors_table,
@@ -18,6 +21,8 @@ from hysteresis_bench.report.diagnosis.before_after import (
 )
 from hysteresis_bench.report.diagnosis.figures import family_curve
 from hysteresis_bench.report.diagnosis.tables import added_table, agreement_table, candidates_table, tests_tables
+from hysteresis_bench.report.laws.memory import memory_section
+from hysteresis_bench.report.laws.structure import structure_section
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
 from hysteresis_bench.report.shared.page import Page, Section
@@ -61,6 +66,8 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
         table = laws_table(laws["laws"], found["model"], laws["floor"], units)
         yield Section("laws", "Which law", [laws["words"], Figures([drawn]), table])
+        yield structure_section(folder, told, read_curves(folder), units) if (told := laws["structure"]) else None
+    yield _memory(folder, kept)
     yield _families(folder, found["families"])
     yield _records(folder, kept)
     yield _considered(kept)
@@ -71,6 +78,17 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         left.append(Details("The same for every record", [single]))
     yield Section("left", "What is left", left)
     yield Section("notes", "How it was made", [Terms(_facts(kept))])
+
+
+def _memory(folder: Path, kept: KeptDiagnosis) -> Section | None:
+    """None where the law's plugin is not here any more."""
+    try:
+        fitted = read_model(folder / MODEL)
+    except UserError:
+        return None
+    known = kept.responses[kept.responses["role"] == "fitted"]
+    inputs = [rows["input"].to_numpy(float) for _, rows in known.groupby("record", sort=False)]
+    return memory_section(folder, fitted, [fitted.preparation.measured_input(u) for u in inputs])
 
 
 def _families(folder: Path, families: Sequence[Mapping[str, Any]]) -> Section | None:

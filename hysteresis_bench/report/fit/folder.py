@@ -17,6 +17,7 @@ from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.fit.model_file import write_model
 from hysteresis_bench.report.fit.page import FILE, write_fit_page
+from hysteresis_bench.report.laws.memory import memory_section
 
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
 FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
@@ -45,7 +46,9 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
             **{f"sha256 of {file.name}": sha for file, sha in zip(files, sums, strict=True)},
         },
     }
-    return write_fit_page(folder, summary, fit.responses)
+    fitted = fit.responses[fit.responses["role"] == "fitted"]
+    inputs = [rows["input"].to_numpy() for _, rows in fitted.groupby("record", sort=False)]
+    return write_fit_page(folder, summary, fit.responses, memory_section(folder, fit.model, inputs))
 
 
 def print_fit(fit: Fit, console: Console) -> None:

@@ -38,13 +38,15 @@ GRADES = (
 """Relative RMS below which a fit is called so. Ours; a reader's purpose decides."""
 
 
-def write_fit_page(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame) -> Path:
+def write_fit_page(
+    folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame, memory: Section | None = None
+) -> Path:
     """Write fit.html and figures/*.svg into the folder; returns the page.
 
     fit : title, model, effects, units, parameters, records, agreement, notes, warnings, provenance;
         a parameter has name, value, standard_error (or None), unit, at_bound; a record has record, role,
         rmse, relative_rms, max_error
-    responses : record, role, time, input, output, simulated
+    responses : record, role, time, input, output, simulated;  memory : of its law
     """
     loops, residuals = _pictures(folder, fit, responses)
     made: list[Block] = [Bullets(fit["notes"])] if fit.get("notes") else []
@@ -53,6 +55,7 @@ def write_fit_page(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame
         Section("errors", "Errors", [_errors(fit["records"], fit.get("units", {}))]),
         Section("loops", "Measured and fitted", [Figures(loops, "small")]),
         Section("residuals", "What is left", [Figures(residuals)]),
+        *([memory] if memory else []),
         Section("notes", "How it was made", [*made, Terms(_facts(fit.get("provenance", {})))]),
     ]
     page = Page(

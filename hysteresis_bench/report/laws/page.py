@@ -12,7 +12,9 @@ from rich.table import Table as Printed
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison
-from hysteresis_bench.report.laws.structure import structure_figures, structure_table
+from hysteresis_bench.diagnosis.structure.curves import FILE as CURVES
+from hysteresis_bench.diagnosis.structure.curves import read_curves, write_curves
+from hysteresis_bench.report.laws.structure import structure_section
 from hysteresis_bench.report.laws.tables import draw_laws, fitted_ones, laws_figure, laws_table, not_fitted
 from hysteresis_bench.report.shared.blocks import Bullets, Figures
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
@@ -23,7 +25,7 @@ EQUAL = 0.01
 """Share of the chosen law's error by which another one is as good."""
 
 FILE, LAWS = "laws.html", "laws.csv"
-FILES = (LAWS, FILE)
+FILES = (LAWS, CURVES, FILE)
 
 
 def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> Path:
@@ -33,6 +35,10 @@ def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> 
     content = found.as_dict()
     laws = content["laws"]
     reasons = not_fitted(laws)
+    structure = None
+    if found.structure is not None:
+        write_curves(folder, found.structure.findings)
+        structure = structure_section(folder, content["structure"], read_curves(folder), found.units)
     sections = [
         Section(
             "laws",
@@ -43,13 +49,13 @@ def write_comparison(folder: Path, found: Comparison, files: Sequence[Path]) -> 
             ],
         ),
         *([Section("reasons", "Laws that were not fitted", [Bullets(reasons)])] if reasons else []),
-        *([_structure(folder, found)] if found.structure else []),
+        *([structure] if structure else []),
         Section(
             "notes",
             "How it was made",
             [
                 *([Bullets(found.notes)] if found.notes else []),
-                files_beside({LAWS: "a row a law"}),
+                files_beside({LAWS: "a row a law", **({CURVES: "what the tests compare"} if structure else {})}),
             ],
         ),
     ]
@@ -63,14 +69,6 @@ def draw_comparison(path: Path, found: Comparison) -> None:
     save_figure(
         path, 1.0 + 0.22 * len(laws), lambda figure: draw_laws(figure.subplots(), laws, found.floor, found.units)
     )
-
-
-def _structure(folder: Path, found: Comparison) -> Section:
-    assert found.structure is not None
-    findings = found.structure.findings
-    pictures = structure_figures(folder, findings, found.units)
-    table = structure_table(findings)
-    return Section("structure", "What the data say before any fit", [table, Figures(pictures, "small")])
 
 
 def _title(found: Comparison) -> str:

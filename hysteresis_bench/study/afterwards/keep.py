@@ -22,6 +22,8 @@ from hysteresis_bench.study.results import (
 
 KEPT = (STUDY, PUBLISHED, PROVENANCE, TRIALS, IDENTIFIABILITY, STAGES, STAGED_TRIALS)
 CLOSED = ("closing.json", "diagnosis.json", "model.json", "responses.csv", "diagnosis.html")
+MEMORY = ("density.csv", "everett.csv")
+"""What a law remembers: one of the two, where its page shows it."""
 
 
 def keep_small(results: Results, folder: Path, moving: Collection[str] = ()) -> Path:
@@ -38,7 +40,7 @@ def keep_small(results: Results, folder: Path, moving: Collection[str] = ()) -> 
     _copy(results.folder, folder, KEPT)
     if (results.folder / CLOSING).is_dir():
         (folder / CLOSING).mkdir(exist_ok=True)
-        _copy(results.folder / CLOSING, folder / CLOSING, CLOSED)
+        _copy(results.folder / CLOSING, folder / CLOSING, CLOSED + MEMORY)
     write_courses(folder, results.traces, moving)
     return folder
 

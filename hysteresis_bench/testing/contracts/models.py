@@ -11,6 +11,7 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.inspection.memory import Plays
 from hysteresis_bench.signals import INDEX, Record, Signal
 from hysteresis_bench.testing.contracts.contract import expect
 from hysteresis_bench.testing.contracts.properties import ALIKE, missed, turned
@@ -69,6 +70,23 @@ class ModelContract(PluginContract):
                 simulated.flags.writeable and not np.shares_memory(simulated, signal.input),
                 "its answer is a view of the input; effects write into the answer, so make an array of its own.",
             )
+
+    def test_its_density_is_one_of_thresholds(self, plugin: str) -> None:
+        """Where it tells a density, thresholds rise from above 0, each with finite weights, one or one a place."""
+        system = System(self.build(plugin))
+        values = drawn(system.box([measured()]), 1)
+        places = np.linspace(-1.0, 1.0, 5)
+        if not isinstance(system.model, Plays):
+            return
+        radii, weights, _ = system.model.density(system.model_values(values), places)
+        expect(
+            radii.ndim == 1 and bool(np.all(np.diff(radii, prepend=0.0) > 0.0)),
+            "the thresholds of its density must rise, the first of them from above 0.",
+        )
+        expect(
+            weights.shape in {(radii.size, 1), (radii.size, places.size)} and bool(np.all(np.isfinite(weights))),
+            "the weights of its density must be finite, of shape (thresholds, 1) or (thresholds, places).",
+        )
 
     def test_it_is_finite_in_its_box(self, plugin: str) -> None:
         """It is finite all over the box that it gives to records, and at its corners; so in its own box."""

@@ -20,6 +20,8 @@ RADIUS = Parameter(
     meaning="what the thresholds divide, at most the half range",
     positive=True,
 )
+SLOPE = "slope of each play's part of the output, once it moves"
+"""What a weight in a density is."""
 NARROWEST = 0.05
 """Least radius in half ranges of the input."""
 

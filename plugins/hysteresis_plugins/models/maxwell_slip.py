@@ -99,6 +99,10 @@ class MaxwellSlip(Model):
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
 
+    def density(self, p: Any, places: Array) -> tuple[Array, Array, str]:
+        stiffnesses = np.stack([getattr(p, name) for name in named("k", self.elements)])
+        return self.limits(p.radius)[:, 0], stiffnesses, "stiffness of each element, until it slips"
+
     def limits(self, radius: Array) -> Array:
         """Where the elements slip, (elements, swarm)."""
         return self._shares[:, None] * radius

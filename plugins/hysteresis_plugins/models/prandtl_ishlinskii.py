@@ -19,7 +19,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, offset, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, at_least, named, radius_box, thresholds
+from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least, named, radius_box, thresholds
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 
@@ -83,3 +83,7 @@ class PrandtlIshlinskii(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
+
+    def density(self, p: Any, places: Array) -> tuple[Array, Array, str]:
+        weights = np.stack([getattr(p, name) for name in named("w", self.plays)])
+        return thresholds(p.radius, self.plays)[1:, 0], weights, SLOPE

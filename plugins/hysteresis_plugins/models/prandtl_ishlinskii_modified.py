@@ -18,7 +18,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, input_span, offset, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, at_least, named, radius_box, thresholds
+from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least, named, radius_box, thresholds
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 HEAVIEST = 10.0
@@ -119,3 +119,9 @@ class PrandtlIshlinskiiModified(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
+
+    def density(self, p: Any, places: Array) -> tuple[Array, Array, str]:
+        weights = np.stack([getattr(p, name) for name in named("w", self.plays)])
+        relative = weights / (1.0 + np.sum(np.abs(weights), axis=0))
+        told = f"{SLOPE}, at the centre of the curve behind the plays"
+        return thresholds(p.radius, self.plays)[1:, 0], p.slope * relative, told

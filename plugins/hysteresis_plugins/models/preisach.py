@@ -19,7 +19,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span
-from hysteresis_plugins.models._plays import RADIUS, at_least, radius_box, thresholds
+from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least, radius_box, thresholds
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 FAR = 1.5
@@ -110,6 +110,11 @@ class Preisach(Model):
                 "apart. Use --input-offset.",
             )
         return offset(records)
+
+    def density(self, p: Any, places: Array) -> tuple[Array, Array, str]:
+        rows = np.array([getattr(p, name)[0] for name in self.linear]).reshape(self.plays + 1, self.degree)[1:]
+        powers = np.arange(1, self.degree + 1)[:, None]
+        return thresholds(p.radius, self.plays)[1:, 0], rows @ (powers * places ** (powers - 1)), SLOPE
 
 
 def _centre(records: Sequence[Record]) -> float:

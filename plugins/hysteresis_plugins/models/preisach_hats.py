@@ -20,7 +20,7 @@ from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, falling, offset, output_span, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, at_least
+from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 TALLEST = 2.0
@@ -135,3 +135,11 @@ class PreisachHats(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
+
+    def density(self, p: Any, places: Array) -> tuple[Array, Array, str]:
+        radii, nodes = (cells[:, 0] for cells in self.cells(p))
+        rises = np.array(p[4 : len(self.parameters)]).reshape(self.plays + 1, self.pieces)
+        piece = np.searchsorted(nodes, places, side="right") - 1
+        inside = (piece >= 0) & (piece < self.pieces)
+        slopes = (rises / np.diff(nodes))[:, np.clip(piece, 0, self.pieces - 1)]
+        return radii[1:], np.where(inside, slopes, 0.0)[1:], SLOPE

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from hysteresis_bench.diagnosis.structure.course import Course
+from hysteresis_bench.diagnosis.structure.curves import Curve
 from hysteresis_bench.diagnosis.structure.finding import Finding
 from hysteresis_bench.diagnosis.structure.properties.rate_independence import FASTER
 from hysteresis_bench.diagnosis.structure.properties.sense import THIN, loops
@@ -47,7 +48,7 @@ def area_growth(course: Course) -> Finding:
     exponent, error = float(solution[0]), float(np.sqrt(covariance[0, 0] * scatter))
     p = float(2.0 * t.sf(abs(exponent - LINEAR) / error, max(degrees, 1)))
     order = np.argsort(x)
-    curve = (np.exp(x[order]), np.exp(y[order]))
+    curve = Curve(np.exp(x[order]), np.exp(y[order]))
     words = f"the area grows with the amplitude to the power {exponent:.2g} ± {error:.1g}: {_regime(exponent)}."
     return Finding("growth of the area", words, exponent, p, unit="", curves=(curve,), along="amplitude")
 

@@ -10,6 +10,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.structure.cells import MOST, judged
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
+from hysteresis_bench.diagnosis.structure.curves import Curve, measured
 from hysteresis_bench.diagnosis.structure.finding import LEVEL, Finding
 
 DEEP = 0.05
@@ -44,7 +45,7 @@ def return_point(course: Course) -> Finding:
     where = "an inner loop should close" if left.size == 1 else f"{left.size} inner loops should close"
     why = "no law with return-point memory closes so badly" if p < LEVEL else f"they close (p = {p:.2g})"
     words = f"where {where} the output differs by {share:.2g} % of the range (RMS), the noise is {noise:.2g} %: {why}."
-    return Finding("return-point memory", words, share, p, curves=tuple(curves[:6]), along="input")
+    return Finding("return-point memory", words, share, p, noise=noise, curves=tuple(curves[:6]), along="input")
 
 
 def _inner(course: Course, outer: Branch, away: Branch, back: Branch) -> bool:
@@ -81,7 +82,7 @@ def _one_sided(to_go: Array, course: Course) -> Array | None:
     return weights
 
 
-def _loop(away: Branch, back: Branch, value: float) -> tuple[Array, Array]:
+def _loop(away: Branch, back: Branch, value: float) -> Curve:
     """The inner loop, for a picture."""
     inside = away.way * (value - back.u) <= 0.0
-    return np.concatenate([away.u, back.u[inside]]), np.concatenate([away.y, back.y[inside]])
+    return measured(np.concatenate([away.u, back.u[inside]]), np.concatenate([away.y, back.y[inside]]))

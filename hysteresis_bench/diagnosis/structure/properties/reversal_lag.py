@@ -9,6 +9,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.structure.cells import MOST
 from hysteresis_bench.diagnosis.structure.course import Course
+from hysteresis_bench.diagnosis.structure.curves import Curve
 from hysteresis_bench.diagnosis.structure.finding import LEVEL, Finding
 
 AROUND = 0.35
@@ -56,7 +57,23 @@ def reversal_lag(course: Course) -> Finding:
         )
     else:
         words = f"the output turns with the input (p = {p:.2g}): no lag is needed."
-    return Finding("reversal lag", words, float(moved), p)
+    curves = _pictured(course, windows, step)
+    return Finding("reversal lag", words, float(moved), p, curves=curves, along="time since the reversal")
+
+
+def _pictured(course: Course, windows: list[slice], step: float) -> tuple[Curve, ...]:
+    """Input and output about the mean reversal, turned upwards, each over its range there."""
+    u, half = course_u(course), (windows[0].stop - windows[0].start) // 2
+    way = [np.sign(u[window][half] - u[window][0]) for window in windows]
+    time = step * np.arange(-half, half + 1)
+    parts = {"input": u, "output": course.y}
+    return tuple(Curve(time, _mean(values, windows, way), name=name) for name, values in parts.items())
+
+
+def _mean(values: Array, windows: list[slice], way: list[float]) -> Array:
+    moved = np.mean([sign * values[window] for sign, window in zip(way, windows, strict=True)], axis=0)
+    shares: Array = (moved - moved.min()) / (np.ptp(moved) or 1.0)
+    return shares
 
 
 def course_u(course: Course) -> Array:

@@ -6,6 +6,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
+from hysteresis_bench.diagnosis.structure.curves import measured
 from hysteresis_bench.diagnosis.structure.finding import LEVEL, Finding
 
 THIN = 2e-3
@@ -16,6 +17,8 @@ FEWEST = 12
 """Samples of such a loop."""
 MOST = 24
 """Loops of a record that are looked at."""
+MOST_SHOWN = 4
+"""Records in the picture."""
 COARSE = 0.3
 """A step of the input beyond this share of its range leaves out a branch."""
 
@@ -42,13 +45,15 @@ def sense(course: Course) -> Finding:
     p, share = float(2.0 * norm.sf(z[strongest])), 100.0 * areas[strongest] / box
     mixed = {-1, 1} <= {*signs}
     words = _words(signs, records, share, p)
-    return Finding("sense", words, share, p, mixed=mixed, curves=_pictured(course), along="input")
-
-
-def _pictured(course: Course, most: int = 4) -> tuple[tuple[Array, Array], ...]:
-    """Records, their whole way, at most so many samples of each."""
-    parts = [(view.u, view.y) for view in course.views[:most]]
-    return tuple((u[:: 1 + u.size // 600], y[:: 1 + y.size // 600]) for u, y in parts)
+    return Finding(
+        "sense",
+        words,
+        share,
+        p,
+        mixed=mixed,
+        curves=tuple(measured(view.u, view.y) for view in course.views[:MOST_SHOWN]),
+        along="input",
+    )
 
 
 def _words(signs: list[int], records: list[str], share: float, p: float) -> str:
