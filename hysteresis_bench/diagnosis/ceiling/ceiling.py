@@ -83,6 +83,11 @@ class Ceiling:
                 f"{said} The black box does clearly better, by {self.advantage:.2g} standard errors: what is missing "
                 "is in these data, in the law or as an effect."
             )
+        if self.repeats and self.named <= REMAINS * self.repeats:
+            return (
+                f"{said} The black box does not do clearly better, and what is left is no more than repeats differ by: "
+                "noise that changes slowly, or something beside the input."
+            )
         return (
             f"{said} The black box does not do clearly better: what is left, {self.named / self.floor:.2g} times the "
             "noise, is nothing that it finds in the input's history or in a smooth course of time or path. Further "

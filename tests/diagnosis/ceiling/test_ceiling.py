@@ -127,7 +127,8 @@ def test_of_a_record_that_goes_further_blocks_are_left_out():
         (2.0, 1.2, 3.0, "does clearly better"),
         (2.0, 1.2, 1.0, "does not do clearly better"),
         (2.0, 1.99, 9.0, "does not do clearly better"),
-        (2.0, 2.5, -3.0, "does not do clearly better"),
+        (2.0, 2.5, -3.0, "measure another quantity"),
+        (1.6, 1.6, 0.0, "no more than repeats differ by"),
     ],
 )
 def test_better_is_what_is_clear_and_matters(named, black_box, advantage, said):
