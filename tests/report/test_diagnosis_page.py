@@ -218,7 +218,7 @@ def test_what_nothing_was_added_to_is_drawn_once(tmp_path, diagnosis):
 
 
 def test_what_a_black_box_reaches_stands_beside_the_verdict(tmp_path, diagnosis):
-    reached = Ceiling(0.13, 0.1, 0.11, 4.0, "past extrema", "whole records", "um", 0.09, 0.08, None)
+    reached = Ceiling(0.13, 0.1, 0.11, 4.0, "past extrema", "whole records", 4, "um", 0.09, 0.08, None)
     text = _plain(_written(tmp_path, replace(diagnosis, ceiling=reached)))
     assert reached.words in text
     assert text.index(diagnosis.headline) < text.index(reached.words) < text.index("before and after")

@@ -132,8 +132,20 @@ def test_of_a_record_that_goes_further_blocks_are_left_out():
     ],
 )
 def test_better_is_what_is_clear_and_matters(named, black_box, advantage, said):
-    found = Ceiling(named, black_box, black_box, advantage, "past extrema", "whole records", "um", 1.0, 0.9, 1.5)
+    found = Ceiling(named, black_box, black_box, advantage, "past extrema", "whole records", 4, "um", 1.0, 0.9, 1.5)
     assert said in found.words
     assert f"{named:.3g} um" in found.words
     assert "repeats differ by 1.5" in found.words
     assert found.as_dict()["words"] == found.words
+
+
+def test_a_noise_that_was_put_too_high_hides_nothing():
+    """As where few samples a cycle leave much between them."""
+    found = Ceiling(12.0, 2.5, 2.5, 8.0, "past extrema", "whole records", 4, "um", 15.0, 1.0, None)
+    assert found.better
+    assert not found.reached
+
+
+def test_of_two_excitations_little_is_said():
+    found = Ceiling(18.0, 17.0, 17.0, 1.0, "past extrema", "whole records", 2, "um", 1.0, 1.0, None)
+    assert "says little" in found.words
