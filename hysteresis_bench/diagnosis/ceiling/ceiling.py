@@ -29,11 +29,11 @@ REMAINS = 1.1
 """Times the floor up to which the named model leaves nothing to be found. On 83 made cases, 72 of which lacked a law or
 an effect, this, `SHARE` and `CLEAR` told 63 of those and none of the others; so they do with 1.05 or 1.2."""
 SHARE = 0.2
-"""Of the named model's excess over the floor (mean square), which a black box must explain to do clearly better. Half of
-it told 64 and one of the others, twice 59; half of `CLEAR` 63, twice 59."""
+"""Of the named model's excess over the floor (mean square), which a black box must explain to do clearly better. Half
+of it told 64 and one of the others, twice 59; half of `CLEAR` 63, twice 59."""
 FEWEST = 4
-"""Folds from which a black box can be expected to find what is missing: of those cases it did not in 5 of 33 with two or
-three, and in 4 of 39 with four."""
+"""Folds from which a black box can be expected to find what is missing: of those cases it did not in 5 of 33 with two
+or three, and in 4 of 39 with four."""
 
 COLUMNS = ("a curve of the input", "past extrema", "past extrema and lags", "past extrema, lags, time and path")
 """Of each level of `bank`."""
