@@ -112,6 +112,8 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     colour = {"effect-found": "green", "no-effect-needed": "green", "unexplained-residual": "yellow"}[found.verdict]
     console.print(f"[bold {colour}]{found.verdict}[/]  {escape(found.headline)}", highlight=False)
     console.print(escape(found.memory.words), highlight=False, style="dim")
+    if found.ceiling is not None:
+        console.print(escape(found.ceiling.words), highlight=False)
 
     table = Table("", "fitted", "held out", title="RMSE", title_justify="left", box=None, pad_edge=False)
     for label, stage in (("before", found.before), ("after", found.after)):

@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from hysteresis_bench.diagnosis.ceiling.ceiling import Ceiling
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
@@ -239,3 +240,18 @@ def test_a_polynomial_far_above_does_not_hide_the_effects(tmp_path):
     assert "without memory" in near.caption
     assert "arrow" not in near.caption
     assert ">9<" in far.inline
+
+
+def test_what_a_black_box_reaches_stands_beside_the_verdict(tmp_path, diagnosis):
+    reached = Ceiling(0.13, 0.1, 0.11, 4.0, "past extrema", "whole records", 4, "um", 0.09, 0.08, None)
+    text = _plain(_written(tmp_path, replace(diagnosis, ceiling=reached)))
+    assert reached.words in text
+    assert text.index(diagnosis.headline) < text.index(reached.words) < text.index("before and after")
+
+
+def test_a_diagnosis_of_before_the_ceiling_has_its_page(tmp_path, diagnosis):
+    write_diagnosis(tmp_path, diagnosis)
+    content = json.loads((tmp_path / DIAGNOSIS).read_text(encoding="utf-8"))
+    del content["ceiling"]
+    (tmp_path / DIAGNOSIS).write_text(json.dumps(content), encoding="utf-8")
+    assert "black box" not in write_diagnosis_page(tmp_path).read_text(encoding="utf-8")

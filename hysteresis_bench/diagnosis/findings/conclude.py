@@ -10,6 +10,7 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.ceiling.ceiling import ceiling
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.families.finding import family_findings
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
@@ -102,6 +103,7 @@ def conclude(
         units=dataset.units,
         given_up=found.given_up,
         unseen=unseen_rmse(found.thin, found.final),
+        ceiling=ceiling(found.thin, found.final, evidence.floor, evidence.noise),
     )
 
 

@@ -111,6 +111,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "certainty": {},
         "better_law": None,
         "agreement": None,
+        "ceiling": None,
     }
     candidates = [
         {"judgement": _judgement(c["adopted"], c["tied_with"], c["p_value"], c["advantage"]), **c}
@@ -168,6 +169,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "families": [_family(one) for one in diagnosis.families],
         "given_up": None if diagnosis.given_up is None else asdict(diagnosis.given_up),
         "unseen": diagnosis.unseen,
+        "ceiling": None if diagnosis.ceiling is None else diagnosis.ceiling.as_dict(),
         "laws": None if diagnosis.laws is None else diagnosis.laws.as_dict(),
         "split": dict(diagnosis.split),
         "advice": diagnosis.advice.words if diagnosis.advice else None,

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 import pandas as pd
 
+from hysteresis_bench.diagnosis.ceiling.ceiling import Ceiling
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement
 from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.evidence.memory import Memory
@@ -43,6 +44,7 @@ class Diagnosis:
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
     doubtful : so much is left that the names may stand in for something else, or they do not help on what is held out
     certainty : of each claimed effect
+    ceiling : what the final system and the best black box reach on excitations left out
     families : what none of its formulas fits, each with its curve
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
     model : ready to predict and to be written
@@ -78,6 +80,7 @@ class Diagnosis:
     families: tuple[FamilyFinding, ...] = ()
     certainty: Mapping[str, Certainty] = field(default_factory=dict)
     laws: Comparison | None = None
+    ceiling: Ceiling | None = None
 
     def _repr_html_(self) -> str:
         """For a notebook: the headline, the errors before and after, the candidates, the warnings."""

@@ -117,7 +117,9 @@ def _title(found: Mapping[str, Any]) -> str:
 
 
 def _answers(found: Mapping[str, Any]) -> Iterator[str]:
-    """What follows the verdict: memory, ties, the next experiment."""
+    """What follows the verdict: what a black box reaches, memory, ties, the next experiment."""
+    if found["ceiling"]:
+        yield found["ceiling"]["words"]
     yield sentence(found["hysteresis"]["words"])
     if sure := found["certainty"]:
         told = [f"{name} {percent(p)}" for name, one in sure.items() if (p := one["probability"]) is not None]
