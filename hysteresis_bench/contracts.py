@@ -166,7 +166,7 @@ class Effect(ABC):
         return np.zeros(simulated.shape[1])
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """Where its parameters may begin, if the box says too little; residuals : (samples,), measured minus simulated."""
+        """Where its parameters may begin, if the box says little; residuals : (samples,), measured minus simulated."""
         return []
 
     def remembered(self, offsets: Sequence[float]) -> Effect:

@@ -19,9 +19,19 @@ from hysteresis_bench.report.diagnosis.before_after import (
 from hysteresis_bench.report.diagnosis.figures import family_curve
 from hysteresis_bench.report.diagnosis.tables import added_table, agreement_table, candidates_table, tests_tables
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
-from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
+from hysteresis_bench.report.shared.blocks import (
+    Block,
+    Bullets,
+    Cell,
+    Details,
+    Figures,
+    Heading,
+    Paragraph,
+    Table,
+    Terms,
+)
 from hysteresis_bench.report.shared.page import Page, Section
-from hysteresis_bench.report.shared.text import listed, percent, sentence
+from hysteresis_bench.report.shared.text import NONE, listed, percent, sentence
 
 FILE = "diagnosis.html"
 
@@ -64,6 +74,7 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
     yield _families(folder, found["families"])
     yield _records(folder, kept)
     yield _considered(kept)
+    yield _measured(found["measured"])
     yield Section("advice", "What to measure next", [found["advice"]]) if found["advice"] else None
     overall, single = tests_tables(found["residual"])
     left: list[Block] = [*description(found), overall]
@@ -71,6 +82,22 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         left.append(Details("The same for every record", [single]))
     yield Section("left", "What is left", left)
     yield Section("notes", "How it was made", [Terms(_facts(kept))])
+
+
+def _measured(measured: Mapping[str, Any] | None) -> Section | None:
+    """What became of the ties by the experiment that was carried out; none where none was."""
+    if not measured:
+        return None
+    rows: list[list[str | Cell]] = [
+        [
+            Cell(listed(tie["names"]), "prose"),
+            NONE if tie["probability"] is None else percent(tie["probability"], 2),
+            Cell(tie["words"], "good" if tie["settled"] else "prose"),
+        ]
+        for tie in measured["ties"]
+    ]
+    table = Table("What it settled", ["Tied before", "Expected to be settled", "Now"], rows)
+    return Section("measured", "The experiment that was carried out", [measured["words"], *measured["notes"], table])
 
 
 def _families(folder: Path, families: Sequence[Mapping[str, Any]]) -> Section | None:
@@ -99,7 +126,9 @@ def _title(found: Mapping[str, Any]) -> str:
 
 
 def _answers(found: Mapping[str, Any]) -> Iterator[str]:
-    """What follows the verdict: memory, ties, the next experiment."""
+    """What follows the verdict: what was measured, memory, ties, the next experiment."""
+    if measured := found["measured"]:
+        yield f"{measured['words']} Before: {measured['before']['headline']}"
     yield sentence(found["hysteresis"]["words"])
     if sure := found["certainty"]:
         told = [f"{name} {percent(p)}" for name, one in sure.items() if (p := one["probability"]) is not None]
