@@ -135,3 +135,14 @@ def test_what_became_of_ties():
         replace(before, advice=replace(before.advice, probabilities={"creep": 0.9, "resonance": 0.7})), before
     )
     assert told.probability == 0.7
+
+
+def test_a_thermostat_follows_what_is_slow_and_the_record_has_what_it_reached():
+    rig = driven_rig("sma")
+    time = np.arange(0.0, 120.0, 0.1)
+    for period, reached in ((120.0, True), (10.0, False)):
+        wanted = 25.0 - 20.0 * np.cos(2.0 * np.pi * time / period)
+        (record,) = rig.play(Record(time, wanted, None, "sine"), np.random.default_rng(0)).records
+        missed = np.sqrt(np.mean((record.input - wanted) ** 2))
+        assert (missed < 0.03 * 40.0) == reached
+        assert record.columns["voltage"].max() <= 5.0
