@@ -101,7 +101,7 @@ class RigContract(PluginContract):
         expect(paths[0] == paths[1], "driven again, it answers otherwise: a step changes the state that it was given.")
 
     def test_it_plays_a_drive(self, plugin: str) -> None:
-        """A rig that plays any drive tells its units, and gives a sound record of the drive's name; the same again where
+        """A rig that plays any drive tells its units, and gives a sound record of its name; the same again where
         the generator is the same."""
         built = self.build(plugin)
         if not isinstance(built, DrivenRig):
