@@ -4,12 +4,16 @@ Let y be the record, f_1 and f_2 what the two fitted systems predict for it, d =
 V_i = s^2 I + J_i C_i J_i^T the covariance of y - f_i where system i is the true one: white noise of variance s^2, and
 what the uncertainty C_i of its parameters makes of the output (J_i its Jacobian). System 2 is refuted where
 
-    t = w^T (y - f_2) / sqrt(w^T V_2 w) > CLEAR,   w = V_2^-1 d,
+    t = w^T (y - f_2) / sqrt(w^T V_2 w) > T,   w = V_2^-1 d,
 
 the most powerful test of f_2 against f_1 [1]. Refitting system 2 to the new record beside the old ones takes up no more
 than V_2 allows: |d - J_2 x|^2 / s^2 + x^T C_2^-1 x is at least d^T V_2^-1 d, whatever x. Where system 1 is true, t is
 normal with mean sqrt(d^T V_2^-1 d) and variance w^T V_1 w / w^T V_2 w, which gives the power in closed form. What is
 told is the mean of the powers with either of the two being true.
+
+T is the diagnosis' own: CLEAR standard deviations, but where system 1 has more parameters than system 2. That one then
+stands until the mean square over all n effective samples differs by more than ALIKE^2, which it does from t^2 =
+(ALIKE^2 - 1) n on.
 
 Assumed: one of the two is true; both are linear in their parameters within C_i; the noise of the new record is that of
 the old ones. Noise that is correlated counts as white noise that is stronger, such that as many samples are worth as
@@ -28,12 +32,26 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
+from hysteresis_bench.diagnosis.search.selection import ALIKE
 from hysteresis_bench.fit.least_squares import errors, jacobian
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.signals import Record
 
 BOX = 12.0
 """Inverse variance of a uniform density over the unit box, by coordinate."""
+
+
+@dataclass(frozen=True)
+class Left:
+    """What a system leaves that is right: its RMS, above 0, and of its samples the share that are independent."""
+
+    rms: float
+    share: float = 1.0
+
+    @property
+    def heard(self) -> float:
+        """Standard deviation of white noise that counts for as much."""
+        return float(self.rms / np.sqrt(self.share))
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,14 +77,18 @@ class Fitted:
         return self.weight * slopes.T @ slopes
 
 
-def told_apart(one: Fitted, other: Fitted, record: Record, noise: float) -> float:
+def told_apart(one: Fitted, other: Fitted, record: Record, left: Left) -> float:
     """The probability that the wrong one is refuted.
 
     record : of the experiment, as a model sees it, its output 0
-    noise : standard deviation of white noise that counts for as much as the one that there is, above 0
     """
-    first, second = (_Prediction(fitted, record, noise) for fitted in (one, other))
-    return 0.5 * (_power(first, second) + _power(second, first))
+    first, second = (_Prediction(fitted, record, left.heard) for fitted in (one, other))
+    samples = left.share * (one.problem.samples * one.weight + record.time.size)
+    clear, alike = CLEAR, max(CLEAR, float(np.sqrt((ALIKE**2 - 1.0) * samples)))
+    richer = one.values.size - other.values.size
+    return 0.5 * (
+        _power(first, second, alike if richer > 0 else clear) + _power(second, first, alike if richer < 0 else clear)
+    )
 
 
 class _Prediction:
@@ -91,14 +113,14 @@ class _Prediction:
         return float(self._variance * (w @ w) + along @ np.linalg.solve(self._information, along))
 
 
-def _power(true: _Prediction, wrong: _Prediction) -> float:
+def _power(true: _Prediction, wrong: _Prediction, threshold: float) -> float:
     d = wrong.errors - true.errors
     w = wrong.divided(d)
     apart = float(d @ w)
     if apart <= 0.0:
         return 0.0
     spread = np.sqrt(true.variance(w) / apart)
-    return NormalDist().cdf((np.sqrt(apart) - CLEAR) / float(spread))
+    return NormalDist().cdf((np.sqrt(apart) - threshold) / float(spread))
 
 
 def _slopes(problem: Problem, point: Array) -> Array:

@@ -8,13 +8,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from hysteresis_bench.diagnosis.experiments.catalogue import catalogue, sampled
-from hysteresis_bench.diagnosis.experiments.power import Fitted, told_apart
+from hysteresis_bench.diagnosis.experiments.power import Fitted, Left, told_apart
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.signals import Record, Signal
 
 SAME = 1e-3
 """Times the noise below which two fitted systems are the same, whatever is measured."""
+
+ROUNDING = 1e-9
+"""Of what is to be seen: records without any noise leave that much."""
 
 LIKELY = 0.8
 """Probability from which one record of the experiment is expected to settle the question."""
@@ -45,13 +48,13 @@ def advise(
     records: tuple[Record, ...],
     noise: float,
     *,
-    heard: float | None = None,
+    left: Left | None = None,
     preparation: Preparation = AS_IT_IS,
 ) -> Advice | None:
     """The experiment in which the least different of the rivals differs most.
 
     tied : fitted systems by their effects' names, ours first;  records : as a model sees them, by this preparation
-    heard : the noise as white noise that counts for as much, where it is correlated
+    left : by ours, where that is not white noise
     """
     first, *rivals = tied
     experiments = list(catalogue(records, preparation))
@@ -67,9 +70,10 @@ def advise(
         return Advice("", float(apart.max()), noise, alike)
     least = np.min(apart[:, different], axis=1)
     best, experiment = float(least.max()), experiments[int(np.argmax(least))]
-    record, loud = sampled(experiment, records), max(heard or noise, 1e-9 * best)
+    record, heard = sampled(experiment, records), left or Left(noise)
+    heard = replace(heard, rms=max(heard.rms, ROUNDING * best))
     probabilities = {
-        str(name): told_apart(tied[first], tied[name], record, loud) for name in others[different].tolist()
+        str(name): told_apart(tied[first], tied[name], record, heard) for name in others[different].tolist()
     }
     device = np.array([preparation.measured_input(seen) for seen in record.input.tolist()])
     unit = records[0].units.get("output", "1")

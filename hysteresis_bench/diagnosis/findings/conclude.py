@@ -12,7 +12,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples
-from hysteresis_bench.diagnosis.experiments.power import Fitted
+from hysteresis_bench.diagnosis.experiments.power import Fitted, Left
 from hysteresis_bench.diagnosis.families.finding import family_findings
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
 from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
@@ -136,8 +136,8 @@ def _advice(found: Found, ties: Sequence[Tie], preparation: Preparation) -> Advi
         name: Fitted(thin.stack.problem(one.names), thin.fitted(one)[1], samples / best.residuals.size)
         for name, one in ((first, best), *found.rivals[first].items())
     }
-    loudness = max(found.evidence.floor, best.rmse) * np.sqrt(samples / effective_samples(left))
-    return advise(tied, full.stack.records, found.evidence.floor, heard=float(loudness), preparation=preparation)
+    heard = Left(max(found.evidence.floor, best.rmse), effective_samples(left) / samples)
+    return advise(tied, full.stack.records, found.evidence.floor, left=heard, preparation=preparation)
 
 
 def _open(after: Stage, prepared: Prepared) -> list[str]:

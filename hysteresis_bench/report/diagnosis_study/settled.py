@@ -43,7 +43,7 @@ def settled_section(cases: Sequence[Case]) -> list[Section]:
         "Settled: of the tied effects the hidden one alone is claimed after the experiment; narrowed: it is among "
         "fewer; wrongly: it is not among them, or another one is claimed beside it. The intervals are Wilson's."
     )
-    table = Table("Ties by the probability told", header, _rows([tie for tie in ties if tie.told is not None]), note)
+    table = Table("Ties by the probability told", header, _rows(_foretold(ties)), note)
     return [Section("settled", "What one advised experiment settles", [words(ties), table])]
 
 
@@ -55,15 +55,20 @@ def words(ties: Sequence[Fate]) -> str:
         f"{became.count('narrowed')}; {became.count('open')} stayed open, {became.count('wrong')} went wrong, and in "
         f"{became.count('void')} nothing that is hidden was tied."
     )
-    told = [tie for tie in ties if tie.told is not None]
+    told = _foretold(ties)
     if not told:
         return said
     mean = sum(tie.told or 0.0 for tie in told) / len(told)
     share = sum(tie.became == "right" for tie in told) / len(told)
     return (
-        f"{said} Of the {len(told)} ties that it was made for, {percent(mean, 2)} were expected to be settled, and "
-        f"{percent(share, 2)} were."
+        f"{said} Of the {len(told)} ties that it was made for and that had a hidden one among them, {percent(mean, 2)} "
+        f"were expected to be settled, and {percent(share, 2)} were."
     )
+
+
+def _foretold(ties: Sequence[Fate]) -> list[Fate]:
+    """Those with a probability, which takes one of the tied effects to be there."""
+    return [tie for tie in ties if tie.told is not None and tie.became != "void"]
 
 
 def _rows(ties: Sequence[Fate]) -> list[list[str | Cell]]:

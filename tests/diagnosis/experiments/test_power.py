@@ -1,14 +1,15 @@
 """The power in closed form against that of repeated records, for two laws in which everything is linear."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
 import pytest
 
+from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
-from hysteresis_bench.diagnosis.experiments.power import Fitted, told_apart
+from hysteresis_bench.diagnosis.experiments.power import Fitted, Left, told_apart
 from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
@@ -41,8 +42,8 @@ def fitted(power, gain):
 
 def test_alike_systems_cannot_be_told_apart_and_unlike_ones_can():
     linear = fitted(1, 1.0)
-    assert told_apart(linear, linear, NEW, NOISE) == 0.0
-    assert told_apart(linear, fitted(3, 8.0), NEW, 1e-3) > 0.99
+    assert told_apart(linear, linear, NEW, Left(NOISE)) == 0.0
+    assert told_apart(linear, fitted(3, 8.0), NEW, Left(1e-3)) > 0.99
 
 
 def test_the_power_is_that_of_repeated_records():
@@ -59,4 +60,15 @@ def test_the_power_is_that_of_repeated_records():
         made = rng.multivariate_normal(means[true], covariances[true], size=20_000)
         counts.append(np.mean((made - means[wrong]) @ w / np.sqrt(w @ covariances[wrong] @ w) > CLEAR))
     assert 0.05 < np.mean(counts) < 0.95
-    assert told_apart(one, other, NEW, NOISE) == pytest.approx(np.mean(counts), abs=0.01)
+    assert told_apart(one, other, NEW, Left(NOISE)) == pytest.approx(np.mean(counts), abs=0.01)
+
+
+def test_correlated_noise_and_a_richer_rival_make_it_less_probable():
+    one, other = fitted(1, 0.7), fitted(3, 7.0)
+    known = told_apart(one, other, NEW, Left(NOISE))
+    assert told_apart(one, other, NEW, Left(NOISE, share=0.2)) < known
+    many = replace(one, weight=1000.0), replace(other, weight=1000.0)
+    richer = System(Powers(3), (("bias", registry.build("effects", "bias")),))
+    space = Space(richer.box((OLD,)))
+    beside = Fitted(Problem(richer, (OLD,), space, LOSSES["rmse"]), np.array([7.0, 0.0, 0.0]), 1000.0)
+    assert told_apart(many[0], beside, NEW, Left(NOISE)) < told_apart(*many, NEW, Left(NOISE)) - 0.2

@@ -5,7 +5,7 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.experiments.power import Fitted
+from hysteresis_bench.diagnosis.experiments.power import Fitted, Left
 from hysteresis_bench.diagnosis.findings.advice import advise
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
@@ -62,7 +62,7 @@ def test_the_expected_probability_falls_with_the_noise_and_is_told():
     assert least[2] < 0.05
     assert "settles that with an expected probability of more than 99%" in quiet.words
     assert "a faster or more precise rig" in deaf.words
-    assert advice_on(0.3, *NAMES, heard=0.6).probabilities == loud.probabilities
+    assert advice_on(0.3, *NAMES, left=Left(0.6)).probabilities == loud.probabilities
 
 
 def test_the_drive_is_the_devices_input_sampled_as_the_records_are():
