@@ -14,6 +14,7 @@ import pytest
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
+from hysteresis_bench.diagnosis.experiments.settled import Measured, Tied
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, DRAWN, RESPONSES, write_diagnosis
 from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
@@ -23,6 +24,7 @@ from hysteresis_bench.fit.accuracy import Accuracy
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
 from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
+from hysteresis_bench.signals import Record
 
 UNITS = {"time": "s", "input": "V", "output": "um"}
 
@@ -214,3 +216,23 @@ def test_what_nothing_was_added_to_is_drawn_once(tmp_path, diagnosis):
     page = _written(tmp_path, replace(diagnosis, responses=same))
     assert "loop-1-other-before" not in page
     assert "Measured and simulated." in page
+
+
+def test_what_was_measured_and_what_it_settled(tmp_path, diagnosis):
+    lags = Tied(("input-lag", "transport-delay", "creep"), 0.93, (("input-lag",),))
+    record = Record(np.arange(120.0), np.zeros(120), None, "advised-pea")
+    notes = ("The rig could not follow.",)
+    told = Measured("pea", "a sine of 5 Hz", record, "It lacked a lag.", ("input-lag",), (lags,), notes)
+    text = _plain(_written(tmp_path, replace(diagnosis, measured=told)))
+    for words in (
+        "carried out on pea: a sine of 5 Hz (120 samples, record advised-pea)",
+        "Tied before were input-lag, transport-delay or creep: it is input-lag.",
+        "Before: It lacked a lag.",
+        "input-lag, transport-delay and creep 93 % it is input-lag",
+        *notes,
+    ):
+        assert words in text, words
+    kept = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
+    assert kept["measured"]["ties"][0]["settled"]
+    assert kept["measured"]["before"]["effects"] == ["input-lag"]
+    assert "carried out" not in _plain(_written(tmp_path, diagnosis))
