@@ -67,6 +67,7 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         errors_table(found, found["floor"], units, more=offset),
     ]
     yield Section("errors", "The error, before and after", errors)
+    yield _measured(found["measured"])
     if laws := found["laws"]:
         drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
         table = laws_table(laws["laws"], found["model"], laws["floor"], units)
@@ -74,7 +75,6 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
     yield _families(folder, found["families"])
     yield _records(folder, kept)
     yield _considered(kept)
-    yield _measured(found["measured"])
     yield Section("advice", "What to measure next", [found["advice"]]) if found["advice"] else None
     overall, single = tests_tables(found["residual"])
     left: list[Block] = [*description(found), overall]
@@ -97,7 +97,7 @@ def _measured(measured: Mapping[str, Any] | None) -> Section | None:
         for tie in measured["ties"]
     ]
     table = Table("What it settled", ["Tied before", "Expected to be settled", "Now"], rows)
-    return Section("measured", "The experiment that was carried out", [measured["words"], *measured["notes"], table])
+    return Section("measured", "The experiment that was carried out", [*measured["notes"], table])
 
 
 def _families(folder: Path, families: Sequence[Mapping[str, Any]]) -> Section | None:
