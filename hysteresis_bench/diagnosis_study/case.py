@@ -48,7 +48,9 @@ class Case:
     ties : "one~other~third" each, where the bench measures what is advised;  told : with what probability that was
     expected to settle each, "-" where it was not made for it
     settled : what became of each: "right", the hidden one alone is claimed; "narrowed", it is among fewer; "open",
-    all are tied still; "wrong", without the hidden one, or beside another; "void", none of them is hidden
+    all are tied still; "wrong", one is claimed that is not hidden; "gone", none is claimed any more; "void", none of
+    them is hidden
+    then : effects that are claimed after that experiment
     """
 
     bench: str
@@ -67,6 +69,7 @@ class Case:
     ties: str = ""
     told: str = ""
     settled: str = ""
+    then: str = ""
     verdict: str = ""
     noise: float | None = None
     before: float | None = None
@@ -101,7 +104,8 @@ def run_case(ticket: CaseTicket) -> Case:
     found = diagnose(blind, question)
     seconds = time.monotonic() - begun
     driven = Bench(rig, bench.rig, key) if bench.measure and isinstance(rig, DrivenRig) else None
-    ties = _ties_after(blind, question, found, driven) if driven else ()
+    last = _measured(blind, question, found, driven) if driven else found
+    ties = ties_after(found, last) if driven else ()
     rivals = {
         name: {tie.rival for tie in found.ties if tie.effect == name}
         | {t.effect for t in found.ties if t.rival == name}
@@ -135,6 +139,7 @@ def run_case(ticket: CaseTicket) -> Case:
         ties=" ".join("~".join(tied.names) for tied in ties),
         told=" ".join("-" if tied.probability is None else f"{tied.probability:.3f}" for tied in ties),
         settled=" ".join(outcome(tied, truth) for tied in ties),
+        then=" ".join(last.effects) if ties else "",
         verdict=found.verdict,
         noise=noise,
         before=before.rmse / noise,
@@ -150,12 +155,11 @@ def _told(certainty: Certainty | None) -> str:
     return "-" if told is None else f"{told:.3f}"
 
 
-def _ties_after(dataset: Dataset, question: Question, found: Diagnosis, bench: Bench) -> tuple[Tied, ...]:
-    """What the advised experiment makes of the ties; they stay open where there is none."""
-    if nothing_to_measure(found):
-        return ties_after(found, found)
-    again = measured(dataset, found, bench, lambda more: diagnose(more, question))
-    return again.measured.ties if again.measured else ()
+def _measured(dataset: Dataset, question: Question, found: Diagnosis, bench: Bench) -> Diagnosis:
+    """After the advised experiment; the same where there is none."""
+    return (
+        found if nothing_to_measure(found) else measured(dataset, found, bench, lambda more: diagnose(more, question))
+    )
 
 
 def outcome(tied: Tied, truth: Sequence[str]) -> str:
@@ -163,7 +167,9 @@ def outcome(tied: Tied, truth: Sequence[str]) -> str:
     hidden = {name for entry in truth for name in entry.split("|")} & {*tied.names}
     if not hidden:
         return "void"
-    if not tied.left or not all(hidden & {*names} for names in tied.left):
+    if not tied.left:
+        return "gone"
+    if not all(hidden & {*names} for names in tied.left):
         return "wrong"
     return "open" if tied.open else "right" if all(len(names) == 1 for names in tied.left) else "narrowed"
 

@@ -125,7 +125,7 @@ def test_what_became_of_ties():
             "open",
         ),
         (("creep", "resonance"), (), "claimed are creep and resonance", "wrong"),
-        ((), (), "none of them is claimed any more", "wrong"),
+        ((), (), "none of them is claimed any more", "gone"),
     ):
         lags, others = ties_after(before, found(*pairs, effects=effects))
         assert (lags.words, outcome(lags, ["creep"])) == (words, fate)

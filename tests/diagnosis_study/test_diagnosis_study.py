@@ -116,9 +116,7 @@ def test_ties_are_counted_with_what_was_expected_of_them(tmp_path):
     write_tables(tmp_path, cases)
     assert read_cases(tmp_path) == cases
     told = words(fates(cases))
-    assert told.startswith(
-        "One advised experiment settled 2 of 5 ties rightly and narrowed 0; 1 stayed open, 1 went wrong"
-    )
+    assert told.startswith("One advised experiment settled 2 of 5 ties rightly and narrowed 0; 1 stayed open, 1 went")
     assert "Of the 3 ties that it was made for and that had a hidden one among them, 86" in told
     assert "expected to be settled, and 33" in told
     (section,) = settled_section(cases)
@@ -155,6 +153,11 @@ def test_faults_of_a_study_are_told_at_once(tmp_path):
         'two [[bench]] are both called "clean"; give one another name.',
     ):
         assert part in faults, part
+
+
+def test_only_a_rig_that_plays_drives_can_measure(tmp_path):
+    faults = " ".join(faults_of(tmp_path, TEXT.replace("hidden-effects", "sma-known-truth") + "measure = true"))
+    assert "[[bench]] 1: measure: rig sma-known-truth cannot play a drive of our own. These can:" in faults
 
 
 @pytest.mark.parametrize(

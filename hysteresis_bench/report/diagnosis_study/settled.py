@@ -41,7 +41,7 @@ def settled_section(cases: Sequence[Case]) -> list[Section]:
     header = ["Probability told", "Ties", "Mean told", "Settled", "95\u202f% interval", "Narrowed", "Wrongly"]
     note = (
         "Settled: of the tied effects the hidden one alone is claimed after the experiment; narrowed: it is among "
-        "fewer; wrongly: it is not among them, or another one is claimed beside it. The intervals are Wilson's."
+        "fewer; wrongly: one is claimed that is not hidden. The intervals are Wilson's."
     )
     table = Table("Ties by the probability told", header, _rows(_foretold(ties)), note)
     return [Section("settled", "What one advised experiment settles", [words(ties), table])]
@@ -52,8 +52,8 @@ def words(ties: Sequence[Fate]) -> str:
     became = [tie.became for tie in ties]
     said = (
         f"One advised experiment settled {became.count('right')} of {len(ties)} ties rightly and narrowed "
-        f"{became.count('narrowed')}; {became.count('open')} stayed open, {became.count('wrong')} went wrong, and in "
-        f"{became.count('void')} nothing that is hidden was tied."
+        f"{became.count('narrowed')}; {became.count('open')} stayed open, {became.count('wrong')} went wrong, of "
+        f"{became.count('gone')} none is claimed any more, and in {became.count('void')} nothing that is hidden was tied."
     )
     told = _foretold(ties)
     if not told:
