@@ -53,7 +53,7 @@ def words(ties: Sequence[Fate]) -> str:
     said = (
         f"One advised experiment settled {became.count('right')} of {len(ties)} ties rightly and narrowed "
         f"{became.count('narrowed')}; {became.count('open')} stayed open, {became.count('wrong')} went wrong, of "
-        f"{became.count('gone')} none is claimed any more, and in {became.count('void')} nothing that is hidden was tied."
+        f"{became.count('gone')} none is claimed any more, and in {became.count('void')} nothing hidden was tied."
     )
     told = _foretold(ties)
     if not told:
