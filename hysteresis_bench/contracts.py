@@ -26,8 +26,7 @@ Start = Callable[[int], Array]
 The first k columns do not depend on how many are asked for."""
 
 Acts: TypeAlias = Literal["law", "input", "output", "added"]
-"""Where an effect acts, in the order of the chain: inside or beside the law, on the input that it sees, on its output,
-or merely added to that."""
+"""Where an effect acts, as the chain is ordered: inside or beside the law, on its input, its output, or only added."""
 
 Family: TypeAlias = Literal[
     "law",
@@ -68,8 +67,7 @@ class Model(ABC):
 
     Where a setting says how many parameters there are, such as a number of plays, `__post_init__` sets `parameters` and
     `linear` of the instance; those of the class are the defaults'. What a law must remember of the fitted range, such
-    as its largest threshold, is a parameter whose box follows from the data: a fit may move it, model.json keeps it,
-    and it is told with its unit and error, like any other.
+    as its largest threshold, is a parameter whose box follows from the data, fitted, kept and told like any other.
     """
 
     parameters: ClassVar[tuple[Parameter, ...]]
@@ -149,8 +147,7 @@ class Effect(ABC):
 
     @abstractmethod
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        """inner(signal) runs what is wrapped -> (samples, swarm); change the signal, the output, or
-        both. p as in Model.simulate."""
+        """inner(signal) runs what is wrapped -> (samples, swarm); change signal, output, or both. p as in simulate."""
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The parameters with bounds and scaling that suit these records."""
@@ -169,8 +166,7 @@ class Effect(ABC):
         return np.zeros(simulated.shape[1])
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """Where a fit may begin for the effect's own parameters, by name; residuals : measured minus simulated,
-        (scored samples,) a record. Empty where the box says enough."""
+        """Where its parameters may begin, if the box says little; residuals : (samples,), measured minus simulated."""
         return []
 
     def remembered(self, offsets: Sequence[float]) -> Effect:
@@ -193,11 +189,8 @@ class Part:
 
 
 class Objective(Protocol):
-    """What an optimizer sees: a metered loss on the unit box. Every answer is finite.
-
-    Raises BudgetSpent when the budget is used up (let it through) and OutsideBox for a point outside
-    [0, 1]: how an algorithm treats its bounds is its own business.
-    """
+    """What an optimizer sees: a metered loss on the unit box, always finite. Raises BudgetSpent (let it through) and
+    OutsideBox for a point outside [0, 1]: how an algorithm treats its bounds is its own business."""
 
     @property
     def dimension(self) -> int: ...
@@ -214,8 +207,7 @@ class Objective(Protocol):
         """point : (dimension,) -> loss. One evaluation."""
 
     def many(self, points: Array) -> Array:
-        """points : (dimension, swarm) -> (swarm,) losses. As many evaluations as columns: the ones that
-        the budget still affords are scored before BudgetSpent is raised."""
+        """points : (dimension, swarm) -> (swarm,) losses; as many as the budget affords, then it raises BudgetSpent."""
 
     def residuals(self, point: Array) -> Array:
         """point : (dimension,) -> (scored samples,), simulated minus measured. One evaluation."""
@@ -255,12 +247,23 @@ class Rig(ABC):
 
     experiments: ClassVar[dict[str, str]]
     """Name and one-line description of what can be measured."""
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    """Of "time", "input" and "output"; a model in others is refused. One that is absent is not compared."""
     ranges: ClassVar[Mapping[str, Range]] = MappingProxyType({})
     """Settings that are drawn where a study asks for several instances, with the drive's among them."""
 
     @abstractmethod
     def measure(self, experiment: str, rng: Generator) -> Dataset:
         """One experiment -> a dataset with units and, in `hidden`, what was hidden in it."""
+
+
+class DrivenRig(Rig):
+    """A rig that plays any drive."""
+
+    @abstractmethod
+    def play(self, drive: Record, rng: Generator) -> Dataset:
+        """One record of the drive's name, from rest, sampled as the rig does; its input is what the rig could follow.
+        drive : evenly sampled from 0 on, linear between its samples, in the rig's units, all of which are told."""
 
 
 class Plant(Protocol):
@@ -281,9 +284,6 @@ class Plant(Protocol):
 
 class SteppedRig(Rig):
     """A rig that a controller can drive, sample by sample."""
-
-    units: ClassVar[Mapping[str, str]] = MappingProxyType({})
-    """Of "time", "input" and "output"; a model in others is refused. One that is absent is not compared."""
 
     @abstractmethod
     def plant(self, rate: float) -> Plant:

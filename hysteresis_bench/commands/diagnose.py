@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,13 +13,15 @@ from hysteresis_bench.commands.data.parameters import model_options
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option
-from hysteresis_bench.commands.terminal.console import open_option, say_notes, say_page, say_path
+from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
 
 if TYPE_CHECKING:
     from rich.console import Console
 
     from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
+    from hysteresis_bench.diagnosis_study.advised import Bench
+    from hysteresis_bench.signals import Dataset
 
 SHOWN = 8
 """Tests and sentences of a kind that still fit a terminal; the files have all."""
@@ -34,6 +36,7 @@ SHOWN = 8
 @click.option("--effect", "effects", multiple=True, help="An effect known to act; may be repeated.")
 @model_options
 @preparation_options
+@click.option("--measure", metavar="RIG", help="Carry the advised experiment out on this virtual rig, diagnose again.")
 @click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
@@ -51,6 +54,7 @@ def diagnose(
     effects: Sequence[str],
     asked: dict[str, Any],
     prepared: dict[str, Any],
+    measure: str | None,
     accept_terms: bool,
     jobs: int | None,
     out: Path | None,
@@ -62,9 +66,11 @@ def diagnose(
 ) -> None:
     """Find what the model lacks in DATA ...: the missing effect, the error before and after.
 
-    A run that was stopped goes on where it was when it is called again.
+    With --measure RIG the experiment that would tell tied effects apart is carried out on a virtual rig, and its record
+    is fitted with the others. A run that was stopped goes on where it was when it is called again.
     """
     from dataclasses import replace
+    from functools import partial
 
     from rich.console import Console
 
@@ -80,17 +86,24 @@ def diagnose(
     folder = out or Path(f"{data[0].stem}-diagnosis")
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     check_plot(plot, data, force)
+    bench = _bench(measure, seed, prepared) if measure else None
     dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
+    if bench:
+        bench.check(dataset)
+        check_folder(folder, (f"{bench.record_name(dataset)}.csv",), FILE, data, force)
     options = DiagnosisOptions(seed, None, **prepared, accept_terms=accept_terms, laws=models)
     with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
         say_notes(Console(stderr=True), kept.notes)
         with told_when_stopped("diagnose", kept.words), steps_told("diagnose") as on_step:
             options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
             found = find(dataset, model, effects, **asked, options=options)
-        path = write_diagnosis(folder, found, data)
+            if bench:
+                more = partial(find, model=model, effects=effects, **asked, options=options)
+                found = _measured(dataset, found, bench, more)
+        path = write_diagnosis(folder, found, [*data, *_written(folder, found)])
         page = write_diagnosis_page(path.parent)
     if plot is not None:
         draw_diagnosis(plot, folder)
@@ -104,6 +117,46 @@ def diagnose(
     say_page(console, page, open_page)
 
 
+def _bench(name: str, seed: int, prepared: dict[str, Any]) -> Bench:
+    """Raises UserError for what is no rig that plays drives, and for records that do not begin at rest, as rigs do."""
+    from hysteresis_bench import registry
+    from hysteresis_bench.diagnosis_study.advised import Bench, driven_rig
+    from hysteresis_bench.errors import UserError
+
+    faults = registry.faults("rigs", name, {})
+    if prepared["settle"] or prepared["skip"]:
+        faults.append("--settle and --skip are for records that do not begin at rest; a rig's does. Leave them out.")
+    if faults:
+        raise UserError("--measure", faults)
+    try:
+        return Bench(driven_rig(name), name, (seed, name))
+    except ValueError as error:
+        raise UserError("--measure", str(error)) from None
+
+
+def _measured(dataset: Dataset, found: Diagnosis, bench: Bench, again: Callable[[Dataset], Diagnosis]) -> Diagnosis:
+    """With the advised experiment; without, and told why, where there is none."""
+    from hysteresis_bench.diagnosis_study.advised import measured, nothing_to_measure
+
+    if nothing := nothing_to_measure(found):
+        say_notes(plain_console(aside=True), [nothing])
+        return found
+    return measured(dataset, found, bench, again)
+
+
+def _written(folder: Path, found: Diagnosis) -> list[Path]:
+    """The file of what was measured, where something was."""
+    from hysteresis_bench.data.data_files import write_csv
+    from hysteresis_bench.signals import Dataset
+
+    if found.measured is None:
+        return []
+    path = folder / f"{found.measured.record.name}.csv"
+    folder.mkdir(parents=True, exist_ok=True)
+    write_csv(path, Dataset((found.measured.record,)))
+    return [path]
+
+
 def print_diagnosis(found: Diagnosis, console: Console) -> None:
     """The verdict, before and after, the candidates, the tests in words, the advice."""
     from rich.markup import escape
@@ -114,6 +167,12 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     console.print(escape(found.memory.words), highlight=False, style="dim")
     if found.ceiling is not None:
         console.print(escape(found.ceiling.words), highlight=False)
+
+
+    if found.measured:
+        console.print(f"Before: {escape(found.measured.headline)}", highlight=False, style="dim")
+        say_notes(console, found.measured.notes)
+        console.print(escape(found.measured.words), highlight=False, style="bold")
 
     table = Table("", "fitted", "held out", title="RMSE", title_justify="left", box=None, pad_edge=False)
     for label, stage in (("before", found.before), ("after", found.after)):

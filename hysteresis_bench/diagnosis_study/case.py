@@ -9,8 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench import registry
-from hysteresis_bench.contracts import Rig
+from hysteresis_bench.contracts import DrivenRig, Rig
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.experiments.settled import Tied, ties_after
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.certainty import Certainty
+from hysteresis_bench.diagnosis_study.advised import Bench, measured, nothing_to_measure
 from hysteresis_bench.diagnosis_study.study_file import BenchSpec, DiagnosisStudy
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.problems import measure
@@ -40,6 +45,12 @@ class Case:
     before, after : RMSE held out, over the noise (an estimate where the rig does not tell);  fresh : the same, after,
         on records that were neither fitted nor held out, without what is imperfect about these
     unfitted : fitted RMSE of the bare model over the noise
+    ties : "one~other~third" each, where the bench measures what is advised;  told : with what probability that was
+    expected to settle each, "-" where it was not made for it
+    settled : what became of each: "right", the hidden one alone is claimed; "narrowed", it is among fewer; "open",
+    all are tied still; "wrong", one is claimed that is not hidden; "gone", none is claimed any more; "void", none of
+    them is hidden
+    then : effects that are claimed after that experiment
     """
 
     bench: str
@@ -55,6 +66,10 @@ class Case:
     extra: str = ""
     family: str = ""
     sure: str = ""
+    ties: str = ""
+    told: str = ""
+    settled: str = ""
+    then: str = ""
     verdict: str = ""
     noise: float | None = None
     before: float | None = None
@@ -77,9 +92,6 @@ class Case:
 
 def run_case(ticket: CaseTicket) -> Case:
     """Measure, diagnose, and compare what was claimed with what is hidden."""
-    from hysteresis_bench.diagnosis.diagnose import diagnose
-    from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-
     study = DiagnosisStudy.model_validate_json(ticket.study)
     bench = next(bench for bench in study.bench if bench.name == ticket.bench)
     rig = build_rig(bench, ticket.number)
@@ -88,8 +100,12 @@ def run_case(ticket: CaseTicket) -> Case:
     truth = hidden_in(bench, seen)
     begun = time.monotonic()
     blind = Dataset(seen.records, seen.held_out_names)
-    found = diagnose(blind, Question(bench.model, options=DiagnosisOptions(jobs=1)))
+    question = Question(bench.model, options=DiagnosisOptions(jobs=1))
+    found = diagnose(blind, question)
     seconds = time.monotonic() - begun
+    driven = Bench(rig, bench.rig, key) if bench.measure and isinstance(rig, DrivenRig) else None
+    last = _measured(blind, question, found, driven) if driven else found
+    ties = ties_after(found, last) if driven else ()
     rivals = {
         name: {tie.rival for tie in found.ties if tie.effect == name}
         | {t.effect for t in found.ties if t.rival == name}
@@ -120,6 +136,10 @@ def run_case(ticket: CaseTicket) -> Case:
         extra=" ".join(extra),
         sure=" ".join(_told(found.certainty.get(name)) for name in claimed),
         family=" ".join(by_family(missed, [families[name] for name in extra if name in families])),
+        ties=" ".join("~".join(tied.names) for tied in ties),
+        told=" ".join("-" if tied.probability is None else f"{tied.probability:.3f}" for tied in ties),
+        settled=" ".join(outcome(tied, truth) for tied in ties),
+        then=" ".join(last.effects) if ties else "",
         verdict=found.verdict,
         noise=noise,
         before=before.rmse / noise,
@@ -133,6 +153,25 @@ def run_case(ticket: CaseTicket) -> Case:
 def _told(certainty: Certainty | None) -> str:
     told = certainty.probability if certainty else None
     return "-" if told is None else f"{told:.3f}"
+
+
+def _measured(dataset: Dataset, question: Question, found: Diagnosis, bench: Bench) -> Diagnosis:
+    """After the advised experiment; the same where there is none."""
+    return (
+        found if nothing_to_measure(found) else measured(dataset, found, bench, lambda more: diagnose(more, question))
+    )
+
+
+def outcome(tied: Tied, truth: Sequence[str]) -> str:
+    """What became of a tie, as in `Case.settled`; truth : as of `compared`"""
+    hidden = {name for entry in truth for name in entry.split("|")} & {*tied.names}
+    if not hidden:
+        return "void"
+    if not tied.left:
+        return "gone"
+    if not all(hidden & {*names} for names in tied.left):
+        return "wrong"
+    return "open" if tied.open else "right" if all(len(names) == 1 for names in tied.left) else "narrowed"
 
 
 def compared(

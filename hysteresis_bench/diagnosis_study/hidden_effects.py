@@ -13,14 +13,17 @@ from numpy.random import Generator, default_rng
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Example, HiddenForm, Hiding, Model, Response, Rig
+from hysteresis_bench.contracts import DrivenRig, Example, HiddenForm, Hiding, Model, Response
 from hysteresis_bench.diagnosis.hypotheses.systems import place
 from hysteresis_bench.diagnosis_study.imperfections import IMPERFECTIONS, noisy
-from hysteresis_bench.signals import Dataset, Record, Signal
+from hysteresis_bench.signals import UNITLESS, Dataset, Record, Signal
 
 DURATION, SAMPLES, FINER = 3.0, 800, 8
 """s and samples of a record, at least 60 a cycle, so that samples miss little of a reversal; everything is computed
 with steps that many times finer."""
+
+STEP = DURATION / (SAMPLES * FINER)
+"""s, with which everything is computed: some formulas depend on it."""
 
 FASTEST = 4.0
 """Hz, of the drives."""
@@ -54,7 +57,7 @@ def _around(inner: Response, form: HiddenForm, conditions: Hiding) -> Response:
 
 
 @dataclass(frozen=True)
-class HiddenEffects(Rig):
+class HiddenEffects(DrivenRig):
     """A hysteresis model with up to all effects hidden, made by formulas and finer steps of their own.
 
     Departs from the contract on purpose: the hysteresis is that of a model, so that whatever else is in the data
@@ -72,6 +75,7 @@ class HiddenEffects(Rig):
     imperfect : what is wrong with the records beside white noise, of `IMPERFECTIONS`; empty: nothing
     """
 
+    units: ClassVar[Mapping[str, str]] = UNITLESS
     experiments: ClassVar[dict[str, str]] = {
         "slow": "sine at 1 Hz that decays",
         "fast": "sine at 3 Hz that swells",
@@ -111,13 +115,19 @@ class HiddenEffects(Rig):
         """One record with the column temperature. Raises ValueError for an unknown experiment."""
         if experiment not in self.experiments:
             raise ValueError(f'no experiment "{experiment}". Known: {", ".join(self.experiments)}')
-        time, drive, temperature = self._setting(experiment)
-        output = self._response(experiment, self._strengths)
+        return self._measured(experiment, *self._setting(experiment), rng)
+
+    def play(self, drive: Record, rng: Generator) -> Dataset:
+        """A record of the drive's name, sampled as the experiments are."""
+        time = np.arange(round(float(drive.time[-1]) / STEP) + 1) * STEP
+        temperature = _temperature(time, len(self.experiments))
+        return self._measured(drive.name, time, np.interp(time, drive.time, drive.input), temperature, rng)
+
+    def _measured(self, name: str, time: Array, drive: Array, temperature: Array, rng: Generator) -> Dataset:
+        output = self._response(time, drive, temperature, self._strengths)
         handed = slice(None, None, FINER)
-        units = {"time": "s", "input": "1", "output": "1", "temperature": "degC"}
-        record = Record(
-            time[handed], drive[handed], output[handed], experiment, units, {"temperature": temperature[handed]}
-        )
+        units = {**self.units, "temperature": "degC"}
+        record = Record(time[handed], drive[handed], output[handed], name, units, {"temperature": temperature[handed]})
         record = IMPERFECTIONS.get(self.imperfect, noisy)(record, self._noise_rms, rng)
         return Dataset((record,), hidden={**dict.fromkeys(self.names, True), "noise": self._noise_rms})
 
@@ -151,7 +161,7 @@ class HiddenEffects(Rig):
 
     @cached_property
     def _span(self) -> float:
-        return max(float(np.ptp(self._response(name, {}))) for name in CALIBRATED)
+        return max(float(np.ptp(self._response(*self._setting(name), {}))) for name in CALIBRATED)
 
     @cached_property
     def _strengths(self) -> dict[str, float]:
@@ -172,8 +182,8 @@ class HiddenEffects(Rig):
 
     def _change(self, name: str, strength: float) -> float:
         """RMS of what an effect alone changes, beyond a gain, an offset and a share of the input."""
-        bare = [self._response(record, {}) for record in CALIBRATED]
-        changed = [self._response(record, {name: strength}) for record in CALIBRATED]
+        bare = [self._response(*self._setting(record), {}) for record in CALIBRATED]
+        changed = [self._response(*self._setting(record), {name: strength}) for record in CALIBRATED]
         drives = [self._setting(record)[1] for record in CALIBRATED]
         y, columns = np.concatenate(bare), np.concatenate(drives)
         target = np.concatenate(changed) - y
@@ -183,14 +193,12 @@ class HiddenEffects(Rig):
 
     def _setting(self, experiment: str) -> tuple[Array, Array, Array]:
         """Time in s, drive and temperature in degC, on the fine grid."""
-        time = np.arange(SAMPLES * FINER) * (DURATION / (SAMPLES * FINER))
+        time = np.arange(SAMPLES * FINER) * STEP
         number = list(self.experiments).index(experiment)
-        temperature = 22.0 + 9.0 * np.sin(2.0 * np.pi * (time / (1.3 * DURATION) + 0.37 * number))
-        return time, self._example.amplitude * _DRIVES[experiment](time), temperature
+        return time, self._example.amplitude * _DRIVES[experiment](time), _temperature(time, number)
 
-    def _response(self, experiment: str, strengths: Mapping[str, float]) -> Array:
+    def _response(self, time: Array, drive: Array, temperature: Array, strengths: Mapping[str, float]) -> Array:
         """The output without noise on the fine grid, with effects of these strengths."""
-        time, drive, temperature = self._setting(experiment)
         amplitude, p = self._example.amplitude, self._values
 
         def bare(u: Array) -> Array:
@@ -217,6 +225,11 @@ class HiddenEffects(Rig):
         shares = self._stream("parameters").uniform(0.85, 1.15, len(centre))
         values = {name: np.array([value * share]) for (name, value), share in zip(centre.items(), shares, strict=True)}
         return namedtuple("Values", list(values))(**values)
+
+
+def _temperature(time: Array, number: int) -> Array:
+    """degC, during the experiment of this number."""
+    return 22.0 + 9.0 * np.sin(2.0 * np.pi * (time / (1.3 * DURATION) + 0.37 * number))
 
 
 def _stairs(time: Array) -> Array:

@@ -20,7 +20,7 @@ from hysteresis_bench.study.kept_files.reader import UNREADABLE
 STUDY, CASES, CONFUSION, FOLDER = "study.toml", "cases.csv", "confusion.csv", "cases"
 
 
-ADDED = ("family", "sure")
+ADDED = ("family", "sure", "ties", "told", "settled", "then")
 """Fields that older files lack."""
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Field, PositiveInt
 
 from hysteresis_bench import registry
+from hysteresis_bench.contracts import DrivenRig
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.study.strict import Seconds, Strict, listed, read_toml, table, tables, validated
 from hysteresis_bench.study.study_faults import doubles, problem_faults
@@ -26,6 +27,8 @@ class BenchSpec(Strict):
         it. Without it, or with "of the rig", the names are what the rig itself says is hidden
     vary : the rig's setting that takes the number of the case; seeds alone differ where it is empty
     fresh : experiments that are neither fitted nor held out, for the error at the end
+    measure : where effects are tied, the advised experiment is carried out and what it settles is counted; that costs
+        another diagnosis
     share : cases of this bench for each of the study's trials
     """
 
@@ -38,6 +41,7 @@ class BenchSpec(Strict):
     fitted: list[str] = Field(min_length=1)
     held_out: list[str] = Field(min_length=1)
     fresh: list[str] = []
+    measure: bool = False
     share: PositiveInt = 1
 
 
@@ -85,5 +89,19 @@ def _bench_faults(bench: dict[str, Any]) -> list[str]:
     hidden = [name for entry in listed(bench, "hidden") for name in entry.split("|")]
     return [
         *problem_faults({**asked, "rig_settings": settings}, keys),
+        *(_driven_faults(str(bench.get("rig"))) if bench.get("measure") is True else []),
         *(f'hidden: no effect "{name}". {nearest(name, effects)}' for name in hidden if name not in effects),
     ]
+
+
+def _driven_faults(rig: str) -> list[str]:
+    """Whether the rig plays drives; one that is unknown is told elsewhere."""
+    loaded = registry.load("rigs", rig).loaded if rig in registry.names("rigs") else None
+    return [] if loaded is None or issubclass(loaded, DrivenRig) else [f"measure: {no_drive(rig)}"]
+
+
+def no_drive(rig: str) -> str:
+    """The sentence on a rig that plays no drive."""
+    loaded = {each: registry.load("rigs", each).loaded for each in registry.names("rigs")}
+    able = [each for each, one in loaded.items() if one and issubclass(one, DrivenRig)]
+    return f"rig {rig} cannot play a drive of our own. These can: {', '.join(able) or 'none'}."

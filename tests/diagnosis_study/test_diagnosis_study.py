@@ -17,6 +17,7 @@ from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 from hysteresis_bench.report.diagnosis_study.reliability import reliability
+from hysteresis_bench.report.diagnosis_study.settled import fates, settled_section, words
 
 STUDIES = Path(__file__).parents[2] / "studies"
 
@@ -103,6 +104,27 @@ def test_kept_cases_are_told_from_their_table_and_damaged_ones_by_name(tmp_path)
             read_cases(tmp_path)
 
 
+def test_ties_are_counted_with_what_was_expected_of_them(tmp_path):
+    lag = "input-lag~creep"
+    cases = [
+        Case("a", "m", 0, "done", ties=lag, told="0.900", settled="right"),
+        Case("a", "m", 1, "done", ties=f"{lag} drift~fatigue", told="0.700 -", settled="open right"),
+        Case("a", "m", 2, "done", ties=lag, told="0.600", settled="void"),
+        Case("a", "m", 3, "done"),
+        Case("a", "m", 4, "done", ties=lag, told="0.980", settled="wrong"),
+    ]
+    write_tables(tmp_path, cases)
+    assert read_cases(tmp_path) == cases
+    told = words(fates(cases))
+    assert told.startswith("One advised experiment settled 2 of 5 ties rightly and narrowed 0; 1 stayed open, 1 went")
+    assert "Of the 3 ties that it was made for and that had a hidden one among them, 86" in told
+    assert "expected to be settled, and 33" in told
+    (section,) = settled_section(cases)
+    table = section.blocks[-1]
+    assert [row[1] for row in table.rows] == ["1", "1", "1"]
+    assert settled_section([cases[3]]) == []
+
+
 def faults_of(folder, text):
     file = folder / "s.toml"
     file.write_text(text)
@@ -131,6 +153,11 @@ def test_faults_of_a_study_are_told_at_once(tmp_path):
         'two [[bench]] are both called "clean"; give one another name.',
     ):
         assert part in faults, part
+
+
+def test_only_a_rig_that_plays_drives_can_measure(tmp_path):
+    faults = " ".join(faults_of(tmp_path, TEXT.replace("hidden-effects", "sma-known-truth") + "measure = true"))
+    assert "[[bench]] 1: measure: rig sma-known-truth cannot play a drive of our own. These can:" in faults
 
 
 @pytest.mark.parametrize(

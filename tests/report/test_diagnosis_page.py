@@ -15,6 +15,7 @@ from hysteresis_bench.diagnosis.ceiling.ceiling import Ceiling
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
+from hysteresis_bench.diagnosis.experiments.settled import Measured, Tied
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, DRAWN, RESPONSES, as_dict, write_diagnosis
 from hysteresis_bench.diagnosis.findings.result import Candidate, Diagnosis, Stage
@@ -27,6 +28,7 @@ from hysteresis_bench.report.diagnosis.before_after import bars_from
 from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, waterfall
 from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
 from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
+from hysteresis_bench.signals import Record
 
 UNITS = {"time": "s", "input": "V", "output": "um"}
 
@@ -255,3 +257,23 @@ def test_a_diagnosis_of_before_the_ceiling_has_its_page(tmp_path, diagnosis):
     del content["ceiling"]
     (tmp_path / DIAGNOSIS).write_text(json.dumps(content), encoding="utf-8")
     assert "black box" not in write_diagnosis_page(tmp_path).read_text(encoding="utf-8")
+
+
+def test_what_was_measured_and_what_it_settled(tmp_path, diagnosis):
+    lags = Tied(("input-lag", "transport-delay", "creep"), 0.93, (("input-lag",),))
+    record = Record(np.arange(120.0), np.zeros(120), None, "advised-pea")
+    notes = ("The rig could not follow.",)
+    told = Measured("pea", "a sine of 5 Hz", record, "It lacked a lag.", ("input-lag",), (lags,), notes)
+    text = _plain(_written(tmp_path, replace(diagnosis, measured=told)))
+    for words in (
+        "carried out on pea: a sine of 5 Hz (120 samples, record advised-pea)",
+        "Tied before were input-lag, transport-delay or creep: it is input-lag.",
+        "Before: It lacked a lag.",
+        "input-lag, transport-delay and creep 93 % it is input-lag",
+        *notes,
+    ):
+        assert words in text, words
+    kept = json.loads((tmp_path / "diagnosis.json").read_text(encoding="utf-8"))
+    assert kept["measured"]["ties"][0]["settled"]
+    assert kept["measured"]["before"]["effects"] == ["input-lag"]
+    assert "carried out" not in _plain(_written(tmp_path, diagnosis))

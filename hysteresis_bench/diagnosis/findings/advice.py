@@ -1,134 +1,102 @@
-"""Which experiment would tell two fitted systems apart? Both are simulated over signals that the rig can play.
-
-Feasible is what stays within the range of the measured input, is no faster than 20 samples a cycle and no
-longer than the longest record.
-"""
+"""Which experiment would tell two fitted systems apart? Both are simulated over signals that the rig can play."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from hysteresis_bench.arrays import Array
-from hysteresis_bench.compose import System
+from hysteresis_bench.diagnosis.experiments.catalogue import catalogue, sampled
+from hysteresis_bench.diagnosis.experiments.power import Fitted, Left, told_apart
 from hysteresis_bench.fit.identifiability.combinations import listed
+from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.signals import Record, Signal
 
-SAMPLES = 2000
-PER_CYCLE = 20
 SAME = 1e-3
 """Times the noise below which two fitted systems are the same, whatever is measured."""
 
-TELLING = 3.0
-"""Separation over noise from which one experiment settles the question."""
+ROUNDING = 1e-9
+"""Of what is to be seen: records without any noise leave that much."""
+
+LIKELY = 0.8
+"""Probability from which one record of the experiment is expected to settle the question."""
+
+HIDDEN = 0.3
+"""Separation over noise below which no number of repeats that anyone makes is enough."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Advice:
     """experiment : in words, empty where none helps
     separation : RMS by which the closest of the tied systems differ there, unit of the output
     noise : RMS of the noise, for comparison
+    probabilities : by rival, that one record of the experiment tells it from the adopted effect (see `power`)
+    drive : the experiment as the device's input, without an output, sampled as the records are; None where none helps
     """
 
     experiment: str
     separation: float
     noise: float
     words: str
+    probabilities: Mapping[str, float] = field(default_factory=dict)
+    drive: Record | None = None
 
 
 def advise(
-    ours: tuple[System, Array],
-    rivals: Sequence[tuple[System, Array]],
-    records: Sequence[Record],
+    tied: Mapping[str, Fitted],
+    records: tuple[Record, ...],
     noise: float,
-    names: Sequence[str],
+    *,
+    left: Left | None = None,
+    preparation: Preparation = AS_IT_IS,
 ) -> Advice | None:
     """The experiment in which the least different of the rivals differs most.
 
-    ours, rivals : systems with their values (dimension,), in units;  names : of the tied effects
+    tied : fitted systems by their effects' names, ours first;  records : as a model sees them, by this preparation
+    left : by ours, where that is not white noise
     """
-    signals = list(_catalogue(records))
+    first, *rivals = tied
+    experiments = list(catalogue(records, preparation))
     try:
-        apart = np.array([[_apart(ours, rival, signal) for rival in rivals] for _, signal in signals])
+        apart = np.array([[_apart(tied[first], tied[name], one.signal) for name in rivals] for one in experiments])
     except ValueError:  # an effect that needs a column, such as the temperature, has no say in a new signal
         return None
     apart = np.where(np.isfinite(apart), apart, 0.0)
     different = np.max(apart, axis=0) > SAME * noise
-    first, others = names[0], np.array(names[1:])
+    others = np.array(rivals)
     alike = f"No feasible signal tells {listed([first, *others[~different]])} apart: for this model they are the same."
     if not different.any():
         return Advice("", float(apart.max()), noise, alike)
     least = np.min(apart[:, different], axis=1)
-    best, experiment = float(least.max()), signals[int(np.argmax(least))][0]
-    ratio = best / noise if noise > 0 else np.inf
-    hope = (
-        "that settles it"
-        if ratio > TELLING
-        else "average over repeats to see it"
-        if ratio > 0.3
-        else "even so the noise hides the difference: a faster or more precise rig is needed"
-    )
+    best, experiment = float(least.max()), experiments[int(np.argmax(least))]
+    record, heard = sampled(experiment, records), left or Left(noise)
+    heard = replace(heard, rms=max(heard.rms, ROUNDING * best))
+    probabilities = {
+        str(name): told_apart(tied[first], tied[name], record, heard) for name in others[different].tolist()
+    }
+    device = np.array([preparation.measured_input(seen) for seen in record.input.tolist()])
     unit = records[0].units.get("output", "1")
-    times = f"{ratio:.{0 if ratio >= 10.0 else 1}f} times the noise"
+    ratio = best / noise if noise > 0 else np.inf
     words = (
-        f"To tell {listed([first, *others[different]])} apart, measure {experiment}: the fitted models differ there by "
-        f"{best:.3g}{'' if unit == '1' else ' ' + unit} RMS, {times}; {hope}."
+        f"To tell {listed([first, *others[different]])} apart, measure {experiment.words}: the fitted models differ "
+        f"there by {best:.3g}{'' if unit == '1' else ' ' + unit} RMS, {ratio:.{0 if ratio >= 10.0 else 1}f} times the "
+        f"noise; {_hope(min(probabilities.values()), ratio)}."
     )
-    return Advice(experiment, best, noise, words if different.all() else f"{words} {alike}")
+    drive = replace(record, input=device, output=None)
+    return Advice(experiment.words, best, noise, words if different.all() else f"{words} {alike}", probabilities, drive)
 
 
-def _apart(ours: tuple[System, Array], rival: tuple[System, Array], signal: Signal) -> float:
-    outputs = [system.simulate(signal, values[:, None])[:, 0] for system, values in (ours, rival)]
+def _hope(probability: float, ratio: float) -> str:
+    """How likely one record of it settles the question."""
+    told = "more than 99%" if probability > 0.99 else "less than 1%" if probability < 0.01 else f"{probability:.0%}"
+    settles = f"one record of it settles that with an expected probability of {told}"
+    if probability >= LIKELY:
+        return settles
+    more = "average over repeats" if ratio > HIDDEN else "a faster or more precise rig is needed"
+    return f"{settles}: {more}"
+
+
+def _apart(ours: Fitted, rival: Fitted, signal: Signal) -> float:
+    outputs = [one.problem.system.simulate(signal, one.values[:, None])[:, 0] for one in (ours, rival)]
     return float(np.std(outputs[0] - outputs[1]))
-
-
-def _catalogue(records: Sequence[Record]) -> Iterator[tuple[str, Signal]]:
-    """What to play, in words, and as a signal."""
-    low = min(float(record.input.min()) for record in records)
-    high = max(float(record.input.max()) for record in records)
-    middle, half = 0.5 * (low + high), 0.5 * (high - low)
-    step = min(float(np.median(np.diff(record.time))) for record in records)
-    longest = max(float(record.time[-1] - record.time[0]) for record in records)
-    fastest, slowest = 1.0 / (PER_CYCLE * step), 3.0 / longest
-    timed = all(record.timed for record in records)
-    units = records[0].units
-    unit_u = "" if units.get("input", "1") == "1" else f" {units['input']}"
-    hertz = "Hz" if units.get("time", "s") == "s" else f"/{units['time']}"
-
-    def played(duration: float, shape: Array) -> Signal:
-        time = np.linspace(0.0, duration, shape.size)
-        return Signal(time, np.ascontiguousarray((middle + half * shape)[:, None]), timed)
-
-    span = f"between {low:.4g} and {high:.4g}{unit_u}"
-    x = np.linspace(0.0, 1.0, SAMPLES)
-    frequencies = np.geomspace(slowest, max(fastest, slowest), 7) if timed else [slowest]
-    for frequency in frequencies:
-        cycles = min(5.0, frequency * longest)
-        for part, words in ((1.0, "full"), (0.4, "two fifths of the")):
-            yield (
-                f"a sine of {frequency:.3g} {hertz} over {words} range {span}",
-                played(cycles / frequency, part * np.sin(2.0 * np.pi * cycles * x)),
-            )
-    turns = np.array([0.0, 1.0, -0.8, 0.8, -0.6, 0.6, -0.4, 0.4, -0.2, 0.2, 0.0])
-    nested = np.interp(x, np.linspace(0.0, 1.0, turns.size), turns)
-    if not timed:
-        yield f"nested loops with reversals that shrink, {span}", played(1.0, nested)
-        return
-    for duration in np.geomspace(5.0 / fastest, longest, 3):
-        yield (
-            f"nested loops with shrinking reversals within {duration:.3g} {units.get('time', 's')}, {span}",
-            played(duration, nested),
-        )
-        stairs = np.array([0.0, 1.0, 1.0, -1.0, -1.0, 0.5, 0.5, -0.5, -0.5, 0.0])
-        places = np.array([0.0, 0.002, 0.25, 0.252, 0.5, 0.502, 0.75, 0.752, 0.998, 1.0])
-        yield (
-            f"steps {span}, each held for {0.25 * duration:.3g} {units.get('time', 's')}",
-            played(duration, np.interp(x, places, stairs)),
-        )
-    fine = np.linspace(0.0, 1.0, 4 * SAMPLES)
-    top = min(fastest, slowest * 4 * SAMPLES / PER_CYCLE)
-    ratio = max(top / slowest, 1.0 + 1e-9)
-    phase = 2.0 * np.pi * slowest * longest * (ratio**fine - 1.0) / np.log(ratio)
-    yield f"a sweep from {slowest:.3g} to {top:.3g} {hertz}, {span}", played(longest, np.sin(phase))

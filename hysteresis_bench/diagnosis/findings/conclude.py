@@ -12,6 +12,8 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.ceiling.ceiling import ceiling
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
+from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples
+from hysteresis_bench.diagnosis.experiments.power import Fitted, Left
 from hysteresis_bench.diagnosis.families.finding import family_findings
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
 from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
@@ -29,8 +31,10 @@ from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import response_table, simulated
 from hysteresis_bench.fit.identifiability.analysis import analyse
+from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import gap_after, not_closed
 from hysteresis_bench.signals import Dataset
 
@@ -86,7 +90,7 @@ def conclude(
         steps=tuple(step_of(at) for at in found.selection.rounds),
         waterfall=(*waterfall, ("noise", evidence.noise.floor)),
         ties=ties,
-        advice=_advice(found, ties),
+        advice=_advice(found, ties, question.preparation),
         memory=evidence.memory,
         equation=left.equation,
         doubtful=outcome.doubtful,
@@ -123,14 +127,19 @@ def _described(found: Found, equation: Equation, prepared: Prepared) -> Stage:
     return stage_of(replace(found.full, stack=stack), final, prepared)
 
 
-def _advice(found: Found, ties: Sequence[Tie]) -> Advice | None:
+def _advice(found: Found, ties: Sequence[Tie], preparation: Preparation) -> Advice | None:
     if not ties:
         return None
     first = ties[0].effect
-    rivals = found.rivals[first]
-    tied = [found.thin.fitted(rival) for rival in rivals.values()]
-    records = found.full.stack.records
-    return advise(found.thin.fitted(found.best), tied, records, found.evidence.floor, [first, *rivals])
+    full, thin, best = found.full, found.thin, found.best
+    left = split(full.errors(best.names, thin.fitted(best)[1]), full.stack.records)
+    samples = sum(part.size for part in left)
+    tied = {
+        name: Fitted(thin.stack.problem(one.names), thin.fitted(one)[1], samples / best.residuals.size)
+        for name, one in ((first, best), *found.rivals[first].items())
+    }
+    heard = Left(max(found.evidence.floor, best.rmse), effective_samples(left) / samples)
+    return advise(tied, full.stack.records, found.evidence.floor, left=heard, preparation=preparation)
 
 
 def _open(after: Stage, prepared: Prepared) -> list[str]:

@@ -105,6 +105,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "equation": left,
         "families": [],
         "experiment": None,
+        "measured": None,
         "unseen": None,
         "laws": None,
         "stand_ins": [],
@@ -130,6 +131,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     left to tell one), and what that rests on
     stand_ins : in the final model beside the effects, and not named: a law that does better, or as well, does not
     need them, or it is an offset beside something that is not explained
+    measured : the experiment that an earlier diagnosis advised and that is fitted here, and what it settled
     offset_of_both : the offset, where the system before has it as the one after has
     """
     offset = diagnosis.offset
@@ -174,6 +176,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "split": dict(diagnosis.split),
         "advice": diagnosis.advice.words if diagnosis.advice else None,
         "experiment": _experiment(diagnosis.advice),
+        "measured": None if diagnosis.measured is None else diagnosis.measured.as_dict(),
         "warnings": list(diagnosis.warnings),
     }
 
@@ -205,7 +208,8 @@ def _experiment(advice: Advice | None) -> dict[str, Any] | None:
     """What to measure next, in numbers; None where no feasible signal helps."""
     if advice is None or not advice.experiment:
         return None
-    return {"signal": advice.experiment, "separation": advice.separation, "noise": advice.noise}
+    told = {"signal": advice.experiment, "separation": advice.separation, "noise": advice.noise}
+    return {**told, "probabilities": dict(advice.probabilities)}
 
 
 def _errors(stage: Stage) -> dict[str, Any]:

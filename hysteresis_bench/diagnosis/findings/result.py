@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis.doubt.agreement import Agreement
 from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
+from hysteresis_bench.diagnosis.experiments.settled import Measured
 from hysteresis_bench.diagnosis.families.finding import FamilyFinding
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
@@ -47,6 +48,7 @@ class Diagnosis:
     ceiling : what the final system and the best black box reach on excitations left out
     families : what none of its formulas fits, each with its curve
     laws : all laws, where no model was asked about;  equation : what describes the residual that remains
+    measured : the advised experiment of an earlier diagnosis, which is among the fitted records here
     model : ready to predict and to be written
     """
 
@@ -81,6 +83,9 @@ class Diagnosis:
     certainty: Mapping[str, Certainty] = field(default_factory=dict)
     laws: Comparison | None = None
     ceiling: Ceiling | None = None
+
+
+    measured: Measured | None = None
 
     def _repr_html_(self) -> str:
         """For a notebook: the headline, the errors before and after, the candidates, the warnings."""

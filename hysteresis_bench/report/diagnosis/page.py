@@ -24,9 +24,19 @@ from hysteresis_bench.report.diagnosis.tables import added_table, agreement_tabl
 from hysteresis_bench.report.laws.memory import memory_section
 from hysteresis_bench.report.laws.structure import structure_section
 from hysteresis_bench.report.laws.tables import laws_figure, laws_table
-from hysteresis_bench.report.shared.blocks import Block, Bullets, Details, Figures, Heading, Paragraph, Terms
+from hysteresis_bench.report.shared.blocks import (
+    Block,
+    Bullets,
+    Cell,
+    Details,
+    Figures,
+    Heading,
+    Paragraph,
+    Table,
+    Terms,
+)
 from hysteresis_bench.report.shared.page import Page, Section
-from hysteresis_bench.report.shared.text import listed, percent, sentence
+from hysteresis_bench.report.shared.text import NONE, listed, percent, sentence
 
 FILE = "diagnosis.html"
 
@@ -62,6 +72,7 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
         errors_table(found, found["floor"], units, more=offset),
     ]
     yield Section("errors", "The error, before and after", errors)
+    yield _measured(found["measured"])
     if laws := found["laws"]:
         drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
         table = laws_table(laws["laws"], found["model"], laws["floor"], units)
@@ -89,6 +100,22 @@ def _memory(folder: Path, kept: KeptDiagnosis) -> Section | None:
     known = kept.responses[kept.responses["role"] == "fitted"]
     inputs = [rows["input"].to_numpy(float) for _, rows in known.groupby("record", sort=False)]
     return memory_section(folder, fitted, [fitted.preparation.measured_input(u) for u in inputs])
+
+
+def _measured(measured: Mapping[str, Any] | None) -> Section | None:
+    """What became of the ties by the experiment that was carried out; none where none was."""
+    if not measured:
+        return None
+    rows: list[list[str | Cell]] = [
+        [
+            Cell(listed(tie["names"]), "prose"),
+            NONE if tie["probability"] is None else percent(tie["probability"], 2),
+            Cell(tie["words"], "good" if tie["settled"] else "prose"),
+        ]
+        for tie in measured["ties"]
+    ]
+    table = Table("What it settled", ["Tied before", "Expected to be settled", "Now"], rows)
+    return Section("measured", "The experiment that was carried out", [*measured["notes"], table])
 
 
 def _families(folder: Path, families: Sequence[Mapping[str, Any]]) -> Section | None:
@@ -120,6 +147,11 @@ def _answers(found: Mapping[str, Any]) -> Iterator[str]:
     """What follows the verdict: what a black box reaches, memory, ties, the next experiment."""
     if found["ceiling"]:
         yield found["ceiling"]["words"]
+
+
+    """What follows the verdict: what was measured, memory, ties, the next experiment."""
+    if measured := found["measured"]:
+        yield f"{measured['words']} Before: {measured['before']['headline']}"
     yield sentence(found["hysteresis"]["words"])
     if sure := found["certainty"]:
         told = [f"{name} {percent(p)}" for name, one in sure.items() if (p := one["probability"]) is not None]

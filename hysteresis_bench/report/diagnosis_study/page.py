@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix, reliability_diagram
 from hysteresis_bench.report.diagnosis_study.reliability import Bin, reliability
+from hysteresis_bench.report.diagnosis_study.settled import settled_section
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
 from hysteresis_bench.report.shared.text import NONE, listed, number, percent, whole
@@ -47,6 +48,7 @@ def write_diagnosis_study_page(folder: Path) -> Path:
     sections = [
         Section("confusion", "What was hidden, and what was claimed", confusions),
         *_sure(folder, cases),
+        *settled_section(cases),
         Section("benches", "The error, before and after", [benches]),
         *([Section("wrong", "Where it went wrong", [wrong])] if wrong.rows else []),
         *([Section("failures", "What did not finish", [failures])] if failures.rows else []),

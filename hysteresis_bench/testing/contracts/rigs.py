@@ -9,10 +9,13 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import SteppedRig
+from hysteresis_bench.contracts import DrivenRig, SteppedRig
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_bench.testing.contracts.contract import Broken, expect
 from hysteresis_bench.testing.plugin import PluginContract
+
+DRIVEN = 400
+"""Samples of a drive."""
 
 RATE = 1000.0
 """Samples a second at which a stepped rig is driven."""
@@ -96,6 +99,26 @@ class RigContract(PluginContract):
             paths.append(path)
         expect(np.all(np.isfinite(paths)), "driven sample by sample, its output is not finite.")
         expect(paths[0] == paths[1], "driven again, it answers otherwise: a step changes the state that it was given.")
+
+    def test_it_plays_a_drive(self, plugin: str) -> None:
+        """A rig that plays any drive tells its units, and gives a sound record of its name; the same again where
+        the generator is the same."""
+        built = self.build(plugin)
+        if not isinstance(built, DrivenRig):
+            return
+        (known,) = built.measure(next(iter(built.experiments)), np.random.default_rng(7)).records
+        untold = [name for name in ("time", "input", "output") if name not in built.units]
+        expect(not untold, f"its units do not tell that of {', '.join(untold)}.")
+        time = np.linspace(0.0, float(np.ptp(known.time)), DRIVEN)
+        swing = np.sin(np.linspace(0.0, 2.0 * np.pi, DRIVEN))
+        u = 0.5 * (known.input.min() + known.input.max()) + 0.5 * np.ptp(known.input) * swing
+        drive = Record(time, u, None, "a drive", built.units)
+        (record,), (again,) = (built.play(drive, np.random.default_rng(3)).records for _ in range(2))
+        faults = [] if record.name == drive.name else [f"its record is called {record.name!r}."]
+        faults += _record_faults(record)
+        expect(not faults, f"of a drive: {' '.join(faults)}")
+        same = np.array_equal(record.measured, again.measured)
+        expect(same, "a drive gives other data with the same generator; draw all noise from `rng`.")
 
 
 def _record_faults(record: Record) -> list[str]:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Range, Rig
+from hysteresis_bench.contracts import DrivenRig, Range
 from hysteresis_bench.signals import Dataset, Record
 
 PRINTED = {"turns": 14400.0, "area": 7.85e-5, "mass": 0.5, "damping": 4.325e3, "stiffness": 3.375e7}
@@ -39,7 +40,7 @@ BENCH_RANGES = {
 
 
 @dataclass(frozen=True)
-class GmaBench(Rig):
+class GmaBench(DrivenRig):
     """Commanded current in A to displacement in micrometres; how the rod's strain follows its field is the rig's own.
 
     The rod is demagnetized, the bias applied, and the current started from 0. Displacement is counted
@@ -52,6 +53,7 @@ class GmaBench(Rig):
     ripple : amplitude of the current ripple, A, ours;  noise : rms of the displacement sensor, um, ours
     """
 
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({"time": "s", "input": "A", "output": "um"})
     experiments: ClassVar[dict[str, str]] = {
         **{name: f"sine current at {f:g} Hz from rest" for name, f in SINES.items()},
         "nested-loops": "sine current at 1 Hz whose amplitude falls by a fifth every period",
@@ -91,12 +93,17 @@ class GmaBench(Rig):
         frequency = SINES.get(experiment, 1.0)
         shares = np.ones(self.periods) if experiment in SINES else np.array(NESTED)
         rate = frequency * self.samples_per_period
-        # the ripple wants twelve steps a period, the diffusion four a sample
-        finer = max(4, int(np.ceil(12 * RIPPLE_FREQUENCY / rate)))
-        steps = np.arange((shares.size * self.samples_per_period - 1) * finer + 1)
-        time = steps / (rate * finer)
-        share = shares[steps // (self.samples_per_period * finer)]
+        time, finer = _fine_grid(shares.size * self.samples_per_period, rate)
+        share = shares[np.arange(time.size) // (self.samples_per_period * finer)]
         commanded = self.amplitude * share * np.sin(2 * np.pi * frequency * time)
+        return self._measured(experiment, time, commanded, finer, rng)
+
+    def play(self, drive: Record, rng: Generator) -> Dataset:
+        """A record of the drive's name; the supply has no limit."""
+        time, finer = _fine_grid(drive.time.size, 1.0 / float(drive.time[1] - drive.time[0]))
+        return self._measured(drive.name, time, np.interp(time, drive.time, drive.input), finer, rng)
+
+    def _measured(self, name: str, time: Array, commanded: Array, finer: int, rng: Generator) -> Dataset:
         phase = 2 * np.pi * rng.random()
         current = commanded + self.ripple * np.sin(2 * np.pi * RIPPLE_FREQUENCY * time + phase)
         displacement = self.displacement(time, current)[::finer]
@@ -105,8 +112,8 @@ class GmaBench(Rig):
             time[::finer],
             commanded[::finer],
             measured,
-            experiment,
-            {"time": "s", "input": "A", "output": "um", "bias_field": "A/m"},
+            name,
+            {**self.units, "bias_field": "A/m"},
             {"bias_field": np.full(displacement.size, self.bias_field)},
         )
         hidden = {**self.truths, "ripple": self.ripple, "noise": self.noise}
@@ -120,3 +127,10 @@ class GmaBench(Rig):
         deflection = PRINTED["area"] * self.modulus / PRINTED["stiffness"] * strain[:, None]
         rate, spring = self.damping / PRINTED["mass"], PRINTED["stiffness"] / PRINTED["mass"]
         return 1e6 * second_order(time, deflection, np.array([rate]), np.array([spring]))[:, 0]
+
+
+def _fine_grid(samples: int, rate: float) -> tuple[Array, int]:
+    """Time in s, so many times as fine as the samples: the ripple wants twelve steps a period, the diffusion four a
+    sample."""
+    finer = max(4, int(np.ceil(12 * RIPPLE_FREQUENCY / rate)))
+    return np.arange((samples - 1) * finer + 1) / (rate * finer), finer

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Range, SteppedRig
+from hysteresis_bench.contracts import DrivenRig, Range, SteppedRig
 from hysteresis_bench.signals import Dataset, Record
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ PLAYS = 60  # ours: more change the displacement by less than the sensor resolve
 
 
 @dataclass(frozen=True)
-class PeaRig(SteppedRig):
+class PeaRig(DrivenRig, SteppedRig):
     """A piezoelectric stack moves a flexure-guided stage; voltage and displacement count from mid-range.
 
     Built after the bench of [PEA] (section 4.1: a P11-X100S actuator with a strain gauge, an amplifier, a data
@@ -114,9 +114,15 @@ class PeaRig(SteppedRig):
 
         Raises ValueError for an unknown experiment.
         """
-        time, voltage = self.drive(experiment)
+        return self._measured(experiment, *self.drive(experiment), rng)
+
+    def play(self, drive: Record, rng: Generator) -> Dataset:
+        """A record of the drive's name; what is beyond the voltage limit is cut."""
+        return self._measured(drive.name, drive.time, np.clip(drive.input, -self.input_limit, self.input_limit), rng)
+
+    def _measured(self, name: str, time: Array, voltage: Array, rng: Generator) -> Dataset:
         displacement = self.sensed(self.simulate(time, voltage), rng)
-        return Dataset((Record(time, voltage, displacement, experiment, dict(self.units)),), hidden=self.hidden)
+        return Dataset((Record(time, voltage, displacement, name, dict(self.units)),), hidden=self.hidden)
 
     def drive(self, experiment: str) -> tuple[Array, Array]:
         """Time in s and voltage in V of an experiment. Raises ValueError for an unknown one."""

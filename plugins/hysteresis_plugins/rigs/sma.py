@@ -11,7 +11,7 @@ import numpy as np
 from numpy.random import Generator
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.contracts import Range, Rig
+from hysteresis_bench.contracts import DrivenRig, Range
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_plugins.rigs._sma_mechanics import Physics, mechanics
 
@@ -31,7 +31,7 @@ class Truth(NamedTuple):
 
 
 @dataclass(frozen=True)
-class SmaRig(Rig):
+class SmaRig(DrivenRig):
     """Two antagonistic shape memory alloy wires, one of them heated, turn a joint against a torsion spring.
 
     Built after the bench of [SMA] (section 2, Figures 1 to 3): 0.25 mm NiTi wires, couplers, torsion spring,
@@ -76,6 +76,7 @@ class SmaRig(Rig):
     [D]   Dynalloy, Flexinol technical data
     """
 
+    units: ClassVar[Mapping[str, str]] = MappingProxyType({"time": "s", "input": "degC", "output": "deg"})
     experiments: ClassVar[dict[str, str]] = {
         "pwm-50s": "2 cycles of 50 s, 5 V at 50 % duty, 10 samples a second, from rest at 0 degC",
         "pwm-60s": "2 cycles of 60 s, 5 V at 50 % duty, 10 samples a second, from rest at 0 degC",
@@ -155,14 +156,29 @@ class SmaRig(Rig):
         if experiment not in self.experiments:
             raise ValueError(f'no experiment "{experiment}". Known: {", ".join(self.experiments)}')
         time, voltage = _DRIVES[experiment]()
-        voltage = voltage * (self.supply / SUPPLY)
+        return self._measured(experiment, time, voltage * (self.supply / SUPPLY), rng)
+
+    def play(self, drive: Record, rng: Generator) -> Dataset:
+        """A record of the drive's name, by a thermostat that knows the rig: it heats up to the supply, and cooling is
+        left to the air, so that it follows slow temperatures only."""
+        from hysteresis_plugins.rigs._sma_thermostat import voltage_for
+
+        step = max(1.0 / RATE, float(drive.time[1] - drive.time[0]))
+        time = np.arange(round(float(drive.time[-1]) / step) + 1) * step
+        wanted = np.interp(time, drive.time, drive.input)
+
+        def read(voltage: Array) -> Array:
+            return self.simulate(time, voltage).reading
+
+        return self._measured(drive.name, time, voltage_for(time, wanted, read, self.supply, self.physics), rng)
+
+    def _measured(self, name: str, time: Array, voltage: Array, rng: Generator) -> Dataset:
         truth = self.simulate(time, voltage)
         reading = truth.reading + self.temperature_noise * rng.standard_normal(time.size)
         angle = truth.angle + self.angle_noise * rng.standard_normal(time.size)
         if self.angle_resolution > 0.0:
             angle = self.angle_resolution * np.round(angle / self.angle_resolution)
-        units = {"time": "s", "input": "degC", "output": "deg", "voltage": "V"}
-        record = Record(time, reading, angle, experiment, units, {"voltage": voltage})
+        record = Record(time, reading, angle, name, {**self.units, "voltage": "V"}, {"voltage": voltage})
         return Dataset((record,), hidden=self.hidden)
 
     def simulate(self, time: Array, voltage: Array) -> Truth:
