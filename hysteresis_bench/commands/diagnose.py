@@ -167,8 +167,6 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     console.print(escape(found.memory.words), highlight=False, style="dim")
     if found.ceiling is not None:
         console.print(escape(found.ceiling.words), highlight=False)
-
-
     if found.measured:
         console.print(f"Before: {escape(found.measured.headline)}", highlight=False, style="dim")
         say_notes(console, found.measured.notes)

@@ -83,8 +83,6 @@ class Diagnosis:
     certainty: Mapping[str, Certainty] = field(default_factory=dict)
     laws: Comparison | None = None
     ceiling: Ceiling | None = None
-
-
     measured: Measured | None = None
 
     def _repr_html_(self) -> str:

@@ -144,12 +144,9 @@ def _title(found: Mapping[str, Any]) -> str:
 
 
 def _answers(found: Mapping[str, Any]) -> Iterator[str]:
-    """What follows the verdict: what a black box reaches, memory, ties, the next experiment."""
+    """What follows the verdict: what a black box reaches, what was measured, memory, ties, the next experiment."""
     if found["ceiling"]:
         yield found["ceiling"]["words"]
-
-
-    """What follows the verdict: what was measured, memory, ties, the next experiment."""
     if measured := found["measured"]:
         yield f"{measured['words']} Before: {measured['before']['headline']}"
     yield sentence(found["hysteresis"]["words"])
