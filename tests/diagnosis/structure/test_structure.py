@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -107,6 +108,17 @@ def test_drift_and_creep_are_told_apart():
     steady, slowing = beside(lambda share: share), beside(lambda share: np.log(0.01 + share))
     assert "drift" in steady.words
     assert "logarithm" in slowing.words
+
+
+def test_minor_loops_of_equal_ends_and_another_history_are_no_repeated_cycle():
+    """Entered from below and from above, they lie one above the other; behind a curve they are not even congruent."""
+    turns = 2 * [-1.0, 0.3, -0.3, 0.3, -0.3, 1.0, -0.3, 0.3, -0.3, 0.3]
+    u = np.concatenate([np.linspace(0.0, turns[0], 100), *(np.linspace(a, b, 101)[1:] for a, b in pairwise(turns))])
+    time = np.arange(u.size) / 500.0
+    y = np.tanh(plays()(time, u)) + 0.003 * noise(np.random.default_rng(5), u.size, 0.0)
+    closed = structure(views_of([Record(time, u, y, "loops")])).of("closure")
+    assert closed.applies
+    assert closed.p > 0.01
 
 
 def test_clockwise_loops_have_the_other_sense_and_mixed_ones_none():

@@ -7,7 +7,7 @@ from collections.abc import Hashable
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.structure.alike import alike, mismatch
+from hysteresis_bench.diagnosis.structure.alike import alike, mismatch, remembered
 from hysteresis_bench.diagnosis.structure.cells import Cell, Unlike, along, evenly, unlike
 from hysteresis_bench.diagnosis.structure.course import Branch, Course
 from hysteresis_bench.diagnosis.structure.finding import LEVEL, Finding, told
@@ -40,7 +40,9 @@ def closure(course: Course) -> Finding:
 
 
 def _cycle(branch: Branch) -> tuple[Hashable, tuple[float, ...]]:
-    return (branch.record, branch.way), branch.past[:2]
+    """The same history: between two equal ends minor loops lie elsewhere after another one."""
+    past = remembered(branch)
+    return (branch.record, branch.way, len(past)), past
 
 
 def _manner(course: Course, found: Unlike) -> str:
