@@ -144,7 +144,7 @@ def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ce
         named=_rms(own),
         black_box=_rms(black_box),
         alone=_rms(alone),
-        advantage=advantage(black_box, own, folds.blocks),
+        advantage=float(advantage(black_box, own, folds.blocks)),
         columns=max(sorted({*found}), key=found.count),
         left_out=folds.how,
         folds=folds.blocks.folds,
