@@ -45,9 +45,10 @@ class Family:
 
 @dataclass(frozen=True, eq=False)
 class Bank:
-    """The columns of these records."""
+    """The columns of every so manieth scored sample of these records."""
 
     records: tuple[Record, ...]
+    stride: int = 1
 
     @cached_property
     def arrivals(self) -> list[float]:
@@ -58,8 +59,9 @@ class Bank:
         return [0.0, *np.geomspace(self._step, shortest, ARRIVALS).tolist()]
 
     def columns(self, family: Family) -> Array:
-        """(scored samples of all records, any)"""
-        return np.vstack([np.column_stack(self._of(record, family))[record.scored] for record in self.records])
+        """(samples of all records, any)"""
+        found = [np.column_stack(self._of(record, family))[record.scored] for record in self.records]
+        return np.vstack(found)[:: self.stride].copy()
 
     def _of(self, record: Record, family: Family) -> list[Array]:
         from hysteresis_bench.kernels.lag import lag

@@ -7,7 +7,7 @@ goes further blocks are, as no black box can know what lies beyond, and so are p
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,10 +21,13 @@ from hysteresis_bench.signals import Record
 
 @dataclass(frozen=True, eq=False)
 class Fold:
-    """without : parts that its fit does not count;  judged : (any,) samples whose errors are its own"""
+    """without : parts that its fit does not count;  judged : (any,) samples whose errors are its own
+    place : of the outer fold without which the named model is fitted
+    """
 
     without: frozenset[int]
     judged: Array
+    place: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,17 +43,23 @@ class Folds:
     @cached_property
     def outer(self) -> list[Fold]:
         """One after the other, each sample judged once."""
-        return [self._of(self.blocks.fold == number) for number in range(self.blocks.folds)]
+        return [self._of(self.blocks.fold == number, number) for number in range(self.blocks.folds)]
 
     def inner(self, outer: Fold) -> list[Fold]:
         """Without the outer one, and each of the others in turn; where there is but one other, without a part of it."""
         others = [fold for fold in self.outer if fold.without != outer.without]
         if len(others) == 1:
-            others = [self._of(self.part == part) for part in sorted(others[0].without)]
-        return [Fold(outer.without | fold.without, fold.judged) for fold in others]
+            # a named model without the other one would know the outer one alone
+            others = [self._of(self.part == part, outer.place) for part in sorted(others[0].without)]
+        return [Fold(outer.without | fold.without, fold.judged, fold.place) for fold in others]
 
-    def _of(self, out: Array) -> Fold:
-        return Fold(frozenset(np.unique(self.part[out]).tolist()), np.flatnonzero(out))
+    def every(self, stride: int) -> Folds:
+        """Of every so manieth sample."""
+        block, fold = self.blocks.block[::stride], self.blocks.fold[::stride]
+        return replace(self, blocks=Blocks(block, fold, self.blocks.folds), part=self.part[::stride])
+
+    def _of(self, out: Array, place: int) -> Fold:
+        return Fold(frozenset(np.unique(self.part[out]).tolist()), np.flatnonzero(out), place)
 
 
 def folds_of(records: Sequence[Record]) -> Folds:

@@ -82,7 +82,8 @@ class Chosen:
 class Nested:
     """centred : every record has a constant of its own, which is estimated on all of its samples
 
-    targets : (samples, targets), what is to be explained;  number : (samples,) of the record
+    targets : (samples, 1 + folds), the output, then what the named model leaves of it without each outer fold
+    number : (samples,) of the record
     """
 
     bank: Bank
@@ -92,27 +93,32 @@ class Nested:
     centred: bool
     known: dict[Family, Regression] = field(default_factory=dict)
 
-    def chosen(self, fold: Fold, target: int) -> Chosen:
-        """What predicts a target best on the inner folds. By how much the input is late is sought with the memory
-        alone."""
-        late = {arrival: self._tried(Family(MEMORY, arrival), fold, target) for arrival in self.bank.arrivals}
+    def chosen(self, fold: Fold, *, beside: bool) -> Chosen:
+        """What predicts best on the inner folds, alone or beside the named model. By how much the input is late is
+        sought with the memory alone."""
+        late = {arrival: self._tried(Family(MEMORY, arrival), fold, beside) for arrival in self.bank.arrivals}
         best = min(late, key=lambda arrival: late[arrival].score)
         others = [Family(CURVE), Family(LAGGED, best), Family(TIMED, best)]
-        tried = [*late.values(), *(self._tried(family, fold, target) for family in others)]
+        tried = [*late.values(), *(self._tried(family, fold, beside) for family in others)]
         return min(tried, key=lambda one: one.score)
 
-    def without(self, fold: Fold, target: int) -> Chosen:
-        """The target left as it is."""
-        score = _mean([np.mean(self.targets[inner.judged, target] ** 2) for inner in self.folds.inner(fold)])
-        return Chosen(float(score), self.targets[fold.judged, target], CURVE)
+    def without(self, fold: Fold) -> Chosen:
+        """The named model with nothing beside it."""
+        inner = [self.targets[one.judged, 1 + one.place] for one in self.folds.inner(fold)]
+        score = _mean([np.mean(left**2) for left in inner])
+        return Chosen(float(score), self.targets[fold.judged, 1 + fold.place], CURVE)
 
-    def _tried(self, family: Family, fold: Fold, target: int) -> Chosen:
+    def _tried(self, family: Family, fold: Fold, beside: bool) -> Chosen:
         """With the best penalty."""
         regression = self._regression(family)
-        inner = [np.mean(regression.errors(inner, target) ** 2, axis=0) for inner in self.folds.inner(fold)]
-        scores = _mean(inner)
+
+        def errors(one: Fold) -> Array:
+            """By a named model that has not seen what is judged: on what it has seen it looks better than it is."""
+            return regression.errors(one, 1 + one.place if beside else 0)
+
+        scores = _mean([np.mean(errors(inner) ** 2, axis=0) for inner in self.folds.inner(fold)])
         best = int(np.argmin(scores))
-        return Chosen(float(scores[best]), regression.errors(fold, target)[:, best], family.level)
+        return Chosen(float(scores[best]), errors(fold)[:, best], family.level)
 
     def _regression(self, family: Family) -> Regression:
         if family not in self.known:
