@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -21,6 +23,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.control.trajectories.trajectory import Followed
     from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.fit.model_file import FittedModel
+    from hysteresis_bench.progress import OnStep
 
 existing_file = click.Path(path_type=Path)
 FEED_FORWARD, TRACKING, SWEEP, SWEPT = "feed-forward.csv", "tracking.svg", "sweep.csv", "sweep.svg"
@@ -76,11 +79,11 @@ def control(
     import numpy as np
 
     from hysteresis_bench import control as control_on_rig
-    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.control.trajectories.driven import forward_of
     from hysteresis_bench.control.trajectories.trajectory import follow
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
+    from hysteresis_bench.progress import Step
     from hysteresis_bench.report.control.page import print_control, write_control
     from hysteresis_bench.report.fit.folder import MODEL
 
@@ -102,8 +105,12 @@ def control(
     if reference is not None:
         layout = replace(layout, rate=rate if rig is None else None)
         try:
-            followed = follow(fitted, forward_of(fitted), reference, voltage_limit or np.inf, layout=layout)
-            _write_followed(fitted, followed, voltage_limit, folder, drawn=plot or folder / TRACKING, as_json=as_json)
+            with _told(folder) as on_step:
+                on_step(Step("the input for the trajectory"))
+                followed = follow(fitted, forward_of(fitted), reference, voltage_limit or np.inf, layout=layout)
+                on_step(Step("table and figure"))
+                drawn = _write_followed(fitted, followed, folder, plot)
+            _say_followed(followed, voltage_limit, folder / FEED_FORWARD, drawn, as_json=as_json)
         except ValueError as error:
             raise UserError(str(model), str(error)) from None
     if sweep:
@@ -111,11 +118,7 @@ def control(
         drawn = folder / SWEPT if plot is None else plot
         _sweep(fitted, model, sweep, amplitudes, folder=folder, drawn=drawn, as_json=as_json)
     if rig is not None:
-        kept = f"no comparison was written to {folder}"
-        with (
-            told_when_stopped("control", lambda: kept, "Run it again to begin anew."),
-            steps_told("control") as on_step,
-        ):
+        with _told(folder) as on_step:
             comparison = control_on_rig(model, rig, rate=rate, amplitude=amplitude, seed=seed, on_step=on_step)
         called = model.resolve().parent.name if model.name == MODEL else model.stem
         page = write_control(folder, comparison, f"{fitted.model} ({called})")
@@ -128,10 +131,18 @@ def control(
         say_page(console, page, open_page)
 
 
-def _write_followed(
-    fitted: FittedModel, followed: Followed, limit: float | None, folder: Path, *, drawn: Path, as_json: bool
-) -> None:
-    import numpy as np
+@contextmanager
+def _told(folder: Path) -> Iterator[OnStep]:
+    """Tells the steps of what runs inside, and where it is stopped that nothing was written."""
+    from hysteresis_bench.commands.terminal.steps import steps_told
+
+    kept = f"nothing was written to {folder}"
+    with told_when_stopped("control", lambda: kept, "Run it again to begin anew."), steps_told("control") as on_step:
+        yield on_step
+
+
+def _write_followed(fitted: FittedModel, followed: Followed, folder: Path, plot: Path | None) -> Path:
+    """Returns the figure."""
     import pandas as pd
 
     from hysteresis_bench.data.csv_files import write_table
@@ -141,10 +152,17 @@ def _write_followed(
     table["at_limit"] = followed.cut.astype(int)
     folder.mkdir(parents=True, exist_ok=True)
     write_table(folder / FEED_FORWARD, table, digits=12)
+    drawn = folder / TRACKING if plot is None else plot
     _draw_tracking(fitted, folder, drawn)
+    return drawn
+
+
+def _say_followed(followed: Followed, limit: float | None, table: Path, drawn: Path, *, as_json: bool) -> None:
+    import numpy as np
+
     if as_json:
         said = {"samples": followed.time.size, "at_limit": followed.cut.sum(), "left": followed.left}
-        files = {"feed_forward": folder / FEED_FORWARD, "figure": drawn}
+        files = {"feed_forward": table, "figure": drawn}
         say_json({**said, "notes": followed.notes, **files})
         return
     console = plain_console()
@@ -157,7 +175,7 @@ def _write_followed(
             highlight=False,
         )
     console.print(f"By the model the output follows to {followed.left:.1g} of its range.", highlight=False)
-    say_path(console, "feed-forward", folder / FEED_FORWARD)
+    say_path(console, "feed-forward", table)
     say_path(console, "figure", drawn)
 
 
@@ -171,14 +189,12 @@ def _sweep(
     drawn: Path,
     as_json: bool,
 ) -> None:
-    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.control.trajectories.sweep import sweep
     from hysteresis_bench.data.csv_files import write_table
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.report.shared.papers import draw_sweep
 
-    kept = f"nothing was written to {folder}"
-    with told_when_stopped("control", lambda: kept, "Run it again to begin anew."), steps_told("control") as on_step:
+    with _told(folder) as on_step:
         try:
             found = sweep(fitted, frequencies, amplitudes, on_step)
         except ValueError as error:

@@ -101,7 +101,7 @@ def test_a_reference_without_names_or_time(here):
 
 def test_control_tells_a_program(here):
     command = ("control", "model.json", "--reference", "loop.csv", "--voltage-limit", "0.5", "--out", "c", "--json")
-    found = json.loads(told(*command))
+    found = json.loads(CliRunner().invoke(main, list(command)).stdout)
     cut = pd.read_csv(here / found["feed_forward"])["at_limit"]
     assert (found["samples"], found["at_limit"]) == (cut.size, cut.sum())
     assert found["at_limit"] > 0

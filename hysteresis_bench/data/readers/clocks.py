@@ -24,11 +24,12 @@ def clocked(lines: Sequence[str], mark: str) -> tuple[list[str], str] | None:
         lower = [cell.lower() for cell in cells]
         if lower[-2:] == list(WORDS) and index + 1 < len(lines):
             below = _cells(lines[index + 1], mark)
-            if len(below) != len(cells) or not all(map(_is_number, below[-2:])) or _unit(below[0]):
-                return None  # a first column with a unit is a time already
+            numbers = [_is_number(cell) for cell in below]
+            if len(below) != len(cells) or not all(numbers[-2:]) or any(numbers[:-2]) or _unit(below[0]):
+                return None  # no line of units, or a first column that is a time already
             units, first, counted = [_unit(cell) for cell in below[1:-2]], index + 2, True
             header, (start, step) = cells[1:-2], map(float, below[-2:])
-        elif found := BESIDE.search(line):
+        elif (found := BESIDE.search(line)) and all(map(_is_number, found.groups())):
             start, step = float(found[1]), float(found[2])
             names = _cells(line[: found.start()], mark)
             values = next((_cells(one, mark) for one in lines[index + 1 :] if one.strip()), [])
