@@ -105,19 +105,10 @@ def test_kept_cases_are_told_from_their_table_and_damaged_ones_by_name(tmp_path)
 
 
 def test_ties_are_counted_with_what_was_expected_of_them(tmp_path):
-    lag, done = "input-lag~creep", ("a", "m", 1, "done")
+    lag, two = "input-lag~creep", {"told": "0.700 -", "settled": "open right", "then": "input-lag drift"}
     cases = [
         Case("a", "m", 0, "done", ties=lag, told="0.900", settled="right", then="creep"),
-        Case(
-            "a",
-            "m",
-            1,
-            "done",
-            ties=f"{lag} drift~fatigue",
-            told="0.700 -",
-            settled="open right",
-            then="input-lag drift",
-        ),
+        Case("a", "m", 1, "done", ties=f"{lag} drift~fatigue", **two),
         Case("a", "m", 2, "done", ties=lag, told="0.600", settled="void"),
         Case("a", "m", 3, "done"),
         Case("a", "m", 4, "done", ties=lag, told="0.980", settled="narrowed", then="creep"),
