@@ -18,18 +18,21 @@ EDGES = (0.0, 0.5, 0.8, 0.95)
 @dataclass(frozen=True)
 class Fate:
     """Of a tie: with what probability it was expected to be settled, where one was told, and what became of it, as in
-    `Case.settled`."""
+    `Case.settled`. apart : what was foretold came true: the effect that was adopted is told from all the others"""
 
     told: float | None
     became: str
+    apart: bool
 
 
 def fates(cases: Sequence[Case]) -> list[Fate]:
     """Of all ties of cases whose bench measures what is advised."""
     found = []
     for case in (case for case in cases if case.status == "done"):
-        pairs = zip(case.told.split(), case.settled.split(), strict=True)
-        found += [Fate(None if told == "-" else float(told), became) for told, became in pairs]
+        later = case.then.split()
+        for names, told, became in zip(case.ties.split(), case.told.split(), case.settled.split(), strict=True):
+            apart = became == "right" or (became != "open" and names.split("~")[0] not in later)
+            found.append(Fate(None if told == "-" else float(told), became, apart))
     return found
 
 
@@ -38,10 +41,10 @@ def settled_section(cases: Sequence[Case]) -> list[Section]:
     ties = fates(cases)
     if not ties:
         return []
-    header = ["Probability told", "Ties", "Mean told", "Settled", "95\u202f% interval", "Narrowed", "Wrongly"]
+    header = ["Probability told", "Ties", "Mean told", "Told apart", "95\u202f% interval", "Settled", "Wrongly"]
     note = (
-        "Settled: of the tied effects the hidden one alone is claimed after the experiment; narrowed: it is among "
-        "fewer; wrongly: one is claimed that is not hidden. The intervals are Wilson's."
+        "Told apart, as was foretold: the effect that was adopted from all the others. Settled: the hidden one alone "
+        "is claimed after the experiment; wrongly: one is claimed that is not hidden. The intervals are Wilson's."
     )
     table = Table("Ties by the probability told", header, _rows(_foretold(ties)), note)
     return [Section("settled", "What one advised experiment settles", [words(ties), table])]
@@ -59,10 +62,10 @@ def words(ties: Sequence[Fate]) -> str:
     if not told:
         return said
     mean = sum(tie.told or 0.0 for tie in told) / len(told)
-    share = sum(tie.became == "right" for tie in told) / len(told)
+    share = sum(tie.apart for tie in told) / len(told)
     return (
         f"{said} Of the {len(told)} ties that it was made for and that had a hidden one among them, {percent(mean, 2)} "
-        f"were expected to be settled, and {percent(share, 2)} were."
+        f"of the adopted effects were expected to be told from all the others, and {percent(share, 2)} were."
     )
 
 
@@ -78,7 +81,7 @@ def _rows(ties: Sequence[Fate]) -> list[list[str | Cell]]:
         if not inside:
             continue
         mean = sum(tie.told or 0.0 for tie in inside) / len(inside)
-        apart = sum(tie.became == "right" for tie in inside)
+        apart = sum(tie.apart for tie in inside)
         least, most = wilson(apart, len(inside))
         wrong = sum(tie.became == "wrong" for tie in inside)
         rows.append(
@@ -88,7 +91,7 @@ def _rows(ties: Sequence[Fate]) -> list[list[str | Cell]]:
                 percent(mean, 2),
                 Cell(percent(apart / len(inside), 2), "good" if least <= mean <= most else "bad"),
                 f"{percent(least, 2)} to {percent(most, 2)}",
-                whole(sum(tie.became == "narrowed" for tie in inside)),
+                whole(sum(tie.became == "right" for tie in inside)),
                 Cell(whole(wrong), "bad" if wrong else ""),
             ]
         )
