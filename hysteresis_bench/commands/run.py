@@ -127,16 +127,21 @@ def _run_diagnosis_study(
     study: Path, trials: int | None, jobs: int | None, out: Path | None, console: Console, as_json: bool
 ) -> tuple[int, Path]:
     """A study of diagnosis; returns the exit code and the page."""
+    from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis_study.results import read_cases
     from hysteresis_bench.diagnosis_study.run import CaseProgress, run_diagnosis_study
+    from hysteresis_bench.progress import Step
     from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 
-    def on_progress(progress: CaseProgress) -> None:
-        if case := progress.case:
-            ended = case.reason or f"hidden {case.hidden or 'nothing'}: claimed {case.claimed or 'nothing'}"
-            console.print(f"{progress.done}/{progress.total} {case.bench}, {case.number}: {ended}", highlight=False)
+    kept = "every case that finished is kept"
+    with told_when_stopped(study, lambda: kept), steps_told("run") as on_step:
 
-    with told_when_stopped(study, lambda: "every case that finished is kept"):
+        def on_progress(progress: CaseProgress) -> None:
+            on_step(Step("cases", progress.done, progress.total))
+            if case := progress.case:
+                ended = case.reason or f"hidden {case.hidden or 'nothing'}: claimed {case.claimed or 'nothing'}"
+                console.print(f"{progress.done}/{progress.total} {case.bench}, {case.number}: {ended}", highlight=False)
+
         results_folder = run_diagnosis_study(study, trials=trials, jobs=jobs, out=out, on_progress=on_progress)
     for sentence in answer(results_folder):
         console.print(sentence, highlight=False)
