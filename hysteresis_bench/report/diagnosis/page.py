@@ -44,9 +44,10 @@ MOST = 6
 """Records that are drawn."""
 
 
-def write_diagnosis_page(folder: Path) -> Path:
+def write_diagnosis_page(folder: Path, files_kept: bool = True) -> Path:
     """Write diagnosis.html and figures/*.svg from a diagnosis' files, into their folder; returns the page.
 
+    files_kept : does the page link to its figures?
     Raises UserError where the folder holds no diagnosis.
     """
     kept = read_diagnosis(folder)
@@ -60,6 +61,7 @@ def write_diagnosis_page(folder: Path) -> Path:
         answers="The verdict",
         warnings=besides_ties(found["warnings"], found["ties"]),
         warned="Before you believe it",
+        files_kept=files_kept,
     )
     return page.write(folder / FILE)
 

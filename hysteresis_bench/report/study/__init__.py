@@ -42,10 +42,9 @@ def write_report(folder: Path) -> Path:
         raise UserError(str(folder), [*results.damages, none])
     richer = not results.traces and (folder / REPORT).is_file()
     closing = results.closing
-    drawn = results.kept_small and closing and closing.page
-    if closing and closing.finished and not closing.responses.empty and not (richer or drawn):
+    if closing and closing.finished and not closing.responses.empty and not richer:
         with suppress(*CONTENT):  # the section on it tells what is damaged
-            write_diagnosis_page(folder / CLOSING)
+            write_diagnosis_page(folder / CLOSING, files_kept=not results.kept_small)
     summary = summarise(results)
     parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
     if not richer:

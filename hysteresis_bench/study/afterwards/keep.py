@@ -21,9 +21,8 @@ from hysteresis_bench.study.results import (
 )
 
 KEPT = (STUDY, PUBLISHED, PROVENANCE, TRIALS, IDENTIFIABILITY, STAGES, STAGED_TRIALS)
-CLOSED = ("closing.json", "diagnosis.json", "model.json", "responses.csv", "diagnosis.html")
-MEMORY = ("density.csv", "everett.csv")
-"""What a law remembers: one of the two, where its page shows it."""
+CLOSED = ("closing.json", "diagnosis.json", "model.json", "responses.csv")
+"""Of the diagnosis at its end; its page, and what only that shows, are written from these."""
 
 
 def keep_small(results: Results, folder: Path, moving: Collection[str] = ()) -> Path:
@@ -40,7 +39,7 @@ def keep_small(results: Results, folder: Path, moving: Collection[str] = ()) -> 
     _copy(results.folder, folder, KEPT)
     if (results.folder / CLOSING).is_dir():
         (folder / CLOSING).mkdir(exist_ok=True)
-        _copy(results.folder / CLOSING, folder / CLOSING, CLOSED + MEMORY)
+        _copy(results.folder / CLOSING, folder / CLOSING, CLOSED)
     write_courses(folder, results.traces, moving)
     return folder
 
