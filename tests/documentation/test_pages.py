@@ -82,7 +82,7 @@ def test_what_the_pages_conclude_from_the_kept_results_holds():
     steel = [kept.measurement("electrical steel", f"held_out_{when}") for when in ("before", "after")]
     assert steel[1] > steel[0]
     assert "input-lag or transport-delay" in kept.measurement("piezo", "ties")
-    assert "input-lag" in kept.closing("gma")["advice"]
+    assert "input-lag" in kept.closing("pea")["advice"]
 
 
 def test_the_citation_names_the_version():
