@@ -153,6 +153,7 @@ def test_what_the_fit_has_not_seen_is_told(tmp_path):
 
 def test_the_command_sweeps(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "120")  # a narrow terminal breaks the headings
     write_model(tmp_path / "model.json", fitted("bouc-wen", BOUC_WEN, ("creep",)))
     done = CliRunner().invoke(main, ["control", "model.json", "--sweep", "1,10", "--json"])
     assert done.exit_code == 0, done.output
