@@ -17,7 +17,6 @@ import pkgutil
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
@@ -92,7 +91,7 @@ def made(count: int, seed: int) -> Iterator[Case]:
 
 def verdict(case: Case, kept: Journal) -> Verdict:
     asked, dataset = case
-    found = diagnose(dataset, asked, options=replace(DiagnosisOptions(jobs=1), kept=kept))
+    found = diagnose(dataset, asked, options=DiagnosisOptions(jobs=1, kept=kept))
     ties = frozenset((tie.effect, tie.rival) for tie in found.ties)
     return found.verdict, frozenset(found.effects), frozenset(found.stand_ins), ties
 

@@ -16,15 +16,14 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.ceiling.bank import Bank
-from hysteresis_bench.diagnosis.ceiling.folds import Folds, folds_of
+from hysteresis_bench.diagnosis.ceiling.folds import folds_of
 from hysteresis_bench.diagnosis.ceiling.nested import Nested
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.fit.least_squares import descend, errors, point_of
-from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.unseen.left_out import FURTHER
+from hysteresis_bench.fit.least_squares import point_of
+from hysteresis_bench.fit.unseen.left_out import errors_without
 
 REMAINS = 1.1
 """Times the floor up to which the named model leaves nothing to be found. On 83 made cases, 72 of which lacked a law or
@@ -124,7 +123,7 @@ def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ce
     # neither folds nor sums may depend on the order in which the records came
     records = tuple(sorted(problem.records, key=lambda record: record.name))
     problem, folds = replace(problem, records=records), folds_of(records)
-    left = _left(problem, point_of(problem, named.values), folds)
+    left = errors_without(problem, point_of(problem, named.values), folds.blocks)
     number = np.repeat(np.arange(len(records)), [record.measured.size for record in records])
     centred = registry.RECORD_OFFSET in named.names
     parts = [record.measured - np.mean(record.measured) if centred else record.measured for record in records]
@@ -157,10 +156,3 @@ def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ce
 
 def _rms(values: Array) -> float:
     return float(np.sqrt(np.mean(values**2)))
-
-
-def _left(problem: Problem, point: Array, folds: Folds) -> Array:
-    """(scored samples, folds) of the named model's errors, without each fold."""
-    starts = np.repeat(point[:, None], folds.blocks.folds, axis=1)
-    points, _ = descend(problem, starts, folds.blocks.training, iterations=FURTHER)
-    return errors(problem, points)

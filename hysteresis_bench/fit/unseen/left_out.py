@@ -37,9 +37,14 @@ def cut(records: Sequence[Record]) -> Blocks:
 
 def left_out_errors(problem: Problem, point: Array, blocks: Blocks, iterations: int = ITERATIONS) -> Array:
     """Errors (scored samples,) of every sample by the fit that did not count it; point : (dimension,)."""
+    return errors_without(problem, point, blocks, iterations)[np.arange(blocks.fold.size), blocks.fold]
+
+
+def errors_without(problem: Problem, point: Array, blocks: Blocks, iterations: int = FURTHER) -> Array:
+    """Errors (scored samples, folds) of all samples by the fits without each fold; point : (dimension,)."""
     starts = np.repeat(point[:, None], blocks.folds, axis=1)
     points, _ = descend(problem, starts, blocks.training, iterations=iterations)
-    return errors(problem, points)[np.arange(blocks.fold.size), blocks.fold]
+    return errors(problem, points)
 
 
 def unseen_errors(problem: Problem, point: Array) -> Array:

@@ -30,6 +30,9 @@ STILL = 0.01
 SIZE = (4.3, 3.7)
 """Of a map, inches."""
 DENSITY, EVERETT = "density.csv", "everett.csv"
+HEADING = "What the law remembers"
+NEEDS = {"return-point": "return-point memory", "congruent": "congruent loops"}
+"""Properties by which first-order reversal curves tell all."""
 
 
 def memory_section(folder: Path, fitted: FittedModel, inputs: Sequence[Array]) -> Section | None:
@@ -48,9 +51,6 @@ def memory_section(folder: Path, fitted: FittedModel, inputs: Sequence[Array]) -
     if (surface := everett(fitted, ends)) is None:
         return None
     return Section("memory", HEADING, [Figures(_surfaces(folder, fitted, surface, inputs))])
-
-
-HEADING = "What the law remembers"
 
 
 def _density(folder: Path, fitted: FittedModel, found: Density, edges: Array) -> Picture:
@@ -145,10 +145,6 @@ def _surfaces(folder: Path, fitted: FittedModel, found: Everett, inputs: Sequenc
         _surface(folder, "everett-density", (middles, mixed, _unit(units, 2)), units, of_density, ()),
     ]
     return [_with_data(one, EVERETT) for one in drawn]
-
-
-NEEDS = {"return-point": "return-point memory", "congruent": "congruent loops"}
-"""Properties by which first-order reversal curves tell all."""
 
 
 def _surface(
