@@ -99,6 +99,15 @@ def test_statistics_are_hidden_below_enough_instances():
     assert "p" in table([judged(problem({"pso": 1.0, "new": 0.5}))]).header
 
 
+def test_a_problem_of_few_trials_is_told_beside_those_that_are_tested_and_takes_no_row():
+    tried = judged(problem({"pso": 1.0, "new": 0.8}, instances=1, trials=30, name="much"))
+    few = judged(problem({"pso": 1.0, "new": 1.3}, instances=1, trials=3, name="little"))
+    shown = table([few, tried])
+    assert [row[1] for row in shown.rows] == ["much"]
+    assert shown.note == "Not tested, as 14 instances, or trials of one instance, are needed: “little” (3 trials)."
+    assert "little" not in in_words([few, tried]) + sentences([few, tried])[0]
+
+
 def test_a_deterministic_optimizer_is_counted_once_an_instance():
     here = problem({"pso": 1.0, "new": 1.0})
     here.rows["new"]["fitness"] = here.rows["new"].groupby("instance")["fitness"].transform("first")

@@ -86,6 +86,12 @@ def _judged(claim: Claim, problem: Problem, found: statistics.Comparison) -> Jud
     return Judged(claim, problem.name, verdict, why, medians, found, problem.several, problem.counted)
 
 
+def tested(judged: Sequence[Judged]) -> list[Judged]:
+    """Those with enough blocks for a test; all of them where none has enough."""
+    enough = [found for found in judged if found.p is not None]
+    return enough or list(judged)
+
+
 def section(judged: Sequence[Judged]) -> Section | None:
     """How the claims are judged; None without a claim."""
     if not judged:
@@ -107,10 +113,12 @@ def section(judged: Sequence[Judged]) -> Section | None:
 
 def table(judged: Sequence[Judged], caption: str = CLAIMS) -> Table | None:
     """A row a claim and problem on which it can be judged; without statistics where there are too few blocks."""
-    shown = [found for found in judged if found.medians]
-    if not shown:
+    able = [found for found in judged if found.medians]
+    if not able:
         return None
-    enough = any(found.p is not None for found in shown)
+    shown = tested(able)
+    enough = shown[0].p is not None
+    few = dict.fromkeys(f"“{found.problem}” ({found.over})" for found in able if found not in shown)
     rows: list[list[str | Cell]] = []
     for found in shown:
         assert found.medians
@@ -120,7 +128,10 @@ def table(judged: Sequence[Judged], caption: str = CLAIMS) -> Table | None:
         rows.append([*row, *(_statistics(found) if enough else []), found.over])
     header = ["Claim", "Problem", "Here", "Medians, first : second"]
     header += ["A12 (95 %)", "p", "Equivalent"] if enough else []
-    note = "" if enough else f"Too few to test: {statistics.ENOUGH} instances, or trials of one instance, are needed."
+    least = f"{statistics.ENOUGH} instances, or trials of one instance, are needed"
+    note = "" if enough else f"Too few to test: {least}."
+    if few:
+        note = f"Not tested, as {least}: {listed(list(few))}."
     return Table(caption, [*header, "Over"], rows, note)
 
 
@@ -138,7 +149,7 @@ def _said(claim: Claim) -> str:
 
 def in_words(judged: Sequence[Judged]) -> str:
     """One sentence: which of the paper's claims hold, and how far that reaches. Empty without a claim."""
-    papers = [found for found in judged if not found.claim.ablation and found.medians]
+    papers = tested([found for found in judged if not found.claim.ablation and found.medians])
     if not papers:
         return ""
     over = listed(list(dict.fromkeys(found.over for found in papers)))
@@ -179,7 +190,7 @@ def sentences(judged: Sequence[Judged]) -> list[str]:
 
 def _sentence(judged: Sequence[Judged], says: str) -> str:
     parts = []
-    about = [found for found in judged if found.claim.says == says]
+    about = tested([found for found in judged if found.claim.says == says])
     for found in about:
         within = "" if found.several or found.p is None else " in this instance"
         numbers = ""
