@@ -48,11 +48,16 @@ def test_noise_on_the_measured_input_is_no_dead_band_and_a_wider_one_is():
     assert with_band.effects == ("backlash",)
 
 
-@pytest.mark.parametrize("effects", [(), ("creep",)])
-def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(effects):
-    settings = {"model": "jiles-atherton", "imperfect": "in-mid-loop", "effects": effects, "noise": 0.004}
-    data = measure("hidden-effects", *RECORDS, settings=settings, seed=3).split(RECORDS[-1:])
-    found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
+@pytest.mark.parametrize(
+    ("law", "effects", "seed"),
+    [("jiles-atherton", (), 3), ("jiles-atherton", ("creep",), 3), ("energy-based", (), 4), ("bouc-wen", (), 4)],
+)
+def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(law, effects, seed):
+    """Of the last two, what the beginnings leave raises the fitted error by 10 and 16 %, and that of what is held out
+    two- and threefold."""
+    settings = {"model": law, "imperfect": "in-mid-loop", "effects": effects, "noise": 0.004}
+    data = measure("hidden-effects", *RECORDS, settings=settings, seed=seed).split(RECORDS[-1:])
+    found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
     assert found.effects == effects
     assert found.verdict == ("effect-found" if effects else "no-effect-needed")
     assert any("begin in mid-loop" in one for one in found.warnings)
@@ -62,4 +67,14 @@ def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(eff
 def test_an_effect_that_acts_all_along_is_not_laid_on_the_beginnings():
     found, _ = found_in("", ("creep",))
     assert found.effects == ("creep",)
+    assert not any("begin in mid-loop" in one for one in found.warnings)
+
+
+def test_nor_is_one_that_little_is_left_of_beyond_them():
+    """Behind the beginnings the asymmetry is a third of the noise, and significant."""
+    settings = {"model": "prandtl-ishlinskii-modified", "hide": 2, "draw": 95014}
+    records = ("slow", "fast", "nested", "sweep", "mixed")
+    data = measure("hidden-effects", *records, settings=settings, seed=0).split(records[-1:])
+    found = diagnose(data, Question("prandtl-ishlinskii-modified", options=DiagnosisOptions(jobs=1)))
+    assert found.effects == ("output-lag", "asymmetry")
     assert not any("begin in mid-loop" in one for one in found.warnings)

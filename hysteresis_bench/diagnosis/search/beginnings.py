@@ -2,8 +2,9 @@
 
 What it remembers from before a record is in its output until the input has passed the extremes that came before. An
 effect that makes up for that, such as a dead band, is needed there and nowhere else: once the beginnings no longer
-count, the system without it leaves no more than the noise. Then the beginnings become history, simulated and not
-scored, and the search begins anew.
+count, the system without it leaves no more than the noise, and the nested-model test does not ask for it. Where nothing
+makes up for it, a fit to the rest alone leaves less by an F test. Then the beginnings become history,
+simulated and not scored, and the search begins anew.
 """
 
 from __future__ import annotations
@@ -13,9 +14,12 @@ from dataclasses import replace
 
 import numpy as np
 
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence import autocorrelated
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, SHARE
+from hysteresis_bench.diagnosis.search.selection import LEVEL, MATTERS, MISFIT, SHARE
+from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.signals import Record
 
 NEAR = 0.05
@@ -26,17 +30,17 @@ same answer."""
 def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
     """Names of the adopted effects that the records need in their beginnings only; empty where nothing is named but
     only the beginnings are off; None where the beginnings make no difference."""
-    selection, thin, best = found.selection, found.thin, found.best
+    thin, best, floor = found.thin, found.best, found.selection.floor
     records = without_beginnings(thin.stack.records)
     if not found.follows or all(now is before for now, before in zip(records, thin.stack.records, strict=True)):
         return None
     later = Fitter(replace(thin.stack, records=records), thin.seed)
 
     def gone(rmse: float, with_beginnings: float) -> bool:
-        """Is what was clearly more than the noise no more than it now?"""
-        excess = [x**2 - selection.floor**2 for x in (rmse, with_beginnings)]
-        clear = with_beginnings > MISFIT * selection.floor
-        return clear and rmse <= MATTERS * selection.floor and excess[0] <= SHARE * excess[1]
+        """Is what was more than the noise no more than it now?"""
+        excess = [x**2 - floor**2 for x in (rmse, with_beginnings)]
+        clear = with_beginnings > MATTERS * max(rmse, floor)
+        return clear and rmse <= MISFIT * floor and excess[0] <= SHARE * excess[1]
 
     left, current, spare = list(found.without), best, list[str]()
     while left:
@@ -44,13 +48,27 @@ def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
         least = min(left, key=lambda name: smaller[name].rmse)
         if not gone(smaller[least].rmse, found.without[least].rmse):
             break
+        larger = later.extended(smaller[least], least, current.values)
+        if later.test(smaller[least], larger).p < LEVEL:
+            break
         left.remove(least)
         spare.append(least)
         current = smaller[least]
     if spare:
         return tuple(spare)
-    errors = later.errors(best.names, later.polished(best))
-    return () if gone(float(np.sqrt(np.mean(errors**2))), best.rmse) else None
+    values = later.polished(best)
+    rest = split(later.errors(best.names, values), records)
+    off = gone(float(np.sqrt(np.mean(np.concatenate(rest) ** 2))), best.rmse)
+    return () if off and _larger(split(best.residuals, thin.stack.records), rest, values.size) < LEVEL else None
+
+
+def _larger(errors: Sequence[Array], rest: Sequence[Array], free: int) -> float:
+    """p of the errors of all being no larger than what a fit to the rest alone leaves there: an F test of mean squares,
+    both made white by the autoregression of the latter. free : parameters of the fit"""
+    filter_ = autocorrelated.autoregression(rest)
+    all_, after = (np.concatenate(autocorrelated.whitened(parts, filter_)) for parts in (errors, rest))
+    freedom = max(after.size - free, 1)
+    return autocorrelated.f_tail(float(np.mean(all_**2) * freedom / (after @ after)), all_.size, freedom)
 
 
 def without_beginnings(records: Sequence[Record]) -> tuple[Record, ...]:
