@@ -5,7 +5,7 @@ Rows are those of a response table: record, role, time, input, output and what a
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +18,12 @@ from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, le
 
 DRIVE = "voltage"
 """A column of what the drive was told, where the input itself is measured."""
+
+MANY, DRAWN = 20, 8
+"""More cycles than this cover each other; then so many of them are drawn, spread from the first to the last."""
+
+SWING = 0.05
+"""Share of the input's range by which a cycle must turn back."""
 
 Parts = Mapping[str, tuple[pd.DataFrame, str]]
 """Who simulated -> the rows of one record, and a colour."""
@@ -44,8 +50,11 @@ def drive(folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption:
 
 
 def loop(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:
-    """Output over input of one record, measured and simulated."""
+    """Output over input of one record, measured and simulated; of many cycles some."""
+    cycles, told = _few_cycles(next(iter(parts.values()))[0]["input"].to_numpy(dtype=float))
+    parts = {who: (_only(rows, cycles), colour) for who, (rows, colour) in parts.items()}
     measured, _ = next(iter(parts.values()))
+    caption = f"{caption}{told}"
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
@@ -63,7 +72,8 @@ def loop(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -
 def measured_loops(
     folder: Path, name: str, rows: pd.DataFrame, *, units: Units, caption: str, most: int = len(SERIES)
 ) -> Picture | None:
-    """The measured loops of all records in one figure; None where there is only one record, or too many."""
+    """The measured loops of all records in one figure, of many cycles some; None where there is only one record, or
+    too many."""
     records = list(rows.groupby(["record", "role"], sort=False))
     if not 1 < len(records) <= most:
         return None
@@ -71,7 +81,8 @@ def measured_loops(
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         for ((record, _), part), colour in zip(records, SERIES, strict=False):
-            axes.plot(part["input"], part["output"], color=colour, linewidth=1.0, label=record)
+            few = _only(part, _few_cycles(part["input"].to_numpy(dtype=float))[0])
+            axes.plot(few["input"], few["output"], color=colour, linewidth=1.0, label=record)
         axes.axhline(0, color=MUTED, linewidth=0.5)
         axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
         legend(axes)
@@ -100,3 +111,25 @@ def relative_error(rows: pd.DataFrame) -> Array:
     measured = rows["output"].to_numpy(dtype=float)
     scale = float(np.max(np.abs(measured), initial=0.0)) or 1.0
     return np.asarray(100.0 * (rows["simulated"].to_numpy(dtype=float) - measured) / scale)
+
+
+def _few_cycles(u: Array) -> tuple[list[slice], str]:
+    """Where to draw a record's loops, and a sentence where that is not everywhere; u : (samples,), the input."""
+    from hysteresis_bench.kernels.turning_points import turning_points
+
+    turns = turning_points(np.ascontiguousarray(u), SWING * float(np.ptp(u)))
+    cycles = turns.size // 2
+    if cycles <= MANY:
+        return [slice(None)], ""
+    ends = np.concatenate([[0], turns[2:-1:2], [u.size - 1]])
+    chosen = np.linspace(0, ends.size - 2, DRAWN).round().astype(int)
+    return [slice(ends[i], ends[i + 1] + 1) for i in chosen], f" {DRAWN} of {cycles} cycles are drawn."
+
+
+def _only(rows: pd.DataFrame, cycles: Sequence[slice]) -> pd.DataFrame:
+    """These parts of a record, with a row without numbers between them, at which a line breaks."""
+    if len(cycles) == 1:
+        return rows
+    numbers = rows.select_dtypes("number")
+    gap = pd.DataFrame([[np.nan] * numbers.shape[1]], columns=numbers.columns)
+    return pd.concat([part for cycle in cycles for part in (numbers.iloc[cycle], gap)], ignore_index=True)
