@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
+from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.families.finding import forms_of
@@ -20,6 +21,7 @@ from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.search import search
+from hysteresis_bench.diagnosis.search.selection import NAMED
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.kernels.resources import economical
@@ -35,7 +37,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """Find what a registered model lacks on the fitted records; the held-out ones are opened once, at the end.
 
     Where no model is asked about, the law is found from the data: all are compared, effects are searched on the most
-    promising ones, and the pair of law and effects is taken that predicts best what it did not see.
+    promising ones, and the pair of law and effects is taken that predicts best what it did not see (`_preferred`).
     Raises UserError telling every fault at once.
     """
     dataset = without_spikes(dataset)
@@ -47,7 +49,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     laws = compare(fitted, replace(question, options=replace(question.options, skip=0.0)), effects_follow=True)
     promising = _promising(laws, len(fitted.fitted) > 1)
     found = [_diagnosed(dataset, replace(question, model=law), promising) for law in promising]
-    best = min(found, key=lambda one: one.unseen)
+    best = _preferred(found)
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))
 
 
@@ -96,6 +98,21 @@ def _promising(laws: Comparison, several: bool) -> list[str]:
         raise UserError("diagnose", f"no law can be fitted to these records. {laws.words}")
     ranked = sorted(fitted, key=lambda law: law != laws.chosen)
     return (_of_few_parameters(ranked) or ranked)[: PURSUED if several else 1]
+
+
+def _preferred(found: Sequence[Diagnosis]) -> Diagnosis:
+    """The one that predicts best. What has no dynamics makes with a law that was not given just another law: one that
+    needs nothing of that kind is preferred, unless it leaves more than twice the excess over the noise (`NAMED`)."""
+    best, *others = sorted(found, key=lambda one: one.unseen)
+    if any(map(is_shape, best.effects)):
+        for one in others:
+            if not any(map(is_shape, one.effects)) and _excess(best) > (1.0 - NAMED) * _excess(one):
+                return one
+    return best
+
+
+def _excess(one: Diagnosis) -> float:
+    return one.unseen**2 - one.floor**2
 
 
 def _of_few_parameters(laws: Sequence[str]) -> list[str]:
