@@ -1,4 +1,4 @@
-"""Of laws that were not given, one that needs no curve goes before one that needs it, where it predicts about as well."""
+"""Of laws that were not given, one without a curve goes before one with it, where it predicts about as well."""
 
 from types import SimpleNamespace
 
