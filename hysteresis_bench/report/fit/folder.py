@@ -18,6 +18,7 @@ from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.fit.model_file import write_model
 from hysteresis_bench.report.fit.page import FILE, write_fit_page
 from hysteresis_bench.report.laws.memory import memory_section
+from hysteresis_bench.report.shared.text import listed
 
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
 FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
@@ -32,7 +33,7 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
     write_table(folder / PARAMETERS, fit.parameters)
     write_table(folder / RESPONSES, fit.responses, digits=8)
     summary = {
-        "title": f"{fit.model.model} fitted to {', '.join(file.stem for file in files)}",
+        "title": f"{fit.model.model} fitted to {listed(fit.model.data['fitted'])}",
         "model": fit.model.model,
         "effects": list(fit.model.effects),
         "units": dict(fit.model.units),
