@@ -16,6 +16,7 @@ from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.fit.checks.advised import advice_with
 from hysteresis_bench.fit.identifiability.combinations import listed
 
 
@@ -145,9 +146,11 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
     if refused := outcome.doubt.asks_for(outcome.adopted):
         yield f"{listed(refused)} would be needed too, but does not help {outcome.model} to predict records left out."
     if outcome.stand_ins:
-        doing = {name: agreed.without(name) if agreed else "" for name in outcome.stand_ins}
-        disputed = [f"{name} ({reason})" if reason else name for name, reason in doing.items()]
-        yield f"{listed(disputed)} may stand in for the law."
+        alike: dict[str, list[str]] = {}
+        for name in outcome.stand_ins:
+            alike.setdefault(agreed.without(name) if agreed else "", []).append(name)
+        disputed = [f"{listed(names)} ({reason})" if reason else listed(names) for reason, names in alike.items()]
+        yield f"{', and '.join(disputed)} may stand in for the law."
 
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
@@ -174,7 +177,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     """What a user must know before believing the names."""
     found, final, after, floor = outcome.found, outcome.found.final, outcome.after, outcome.evidence.floor
     records = found.full.stack.records
-    said = list(found.full.stack.model.advice(records)) if not final.names & {*registry.OFFSETS} else []
+    said = list(advice_with(found.full.stack.model, final.names, records))
     if found.given_up:
         said.insert(0, _gave_up(found.given_up))
     if not outcome.carries_over:

@@ -1,0 +1,37 @@
+"""The headline of a diagnosis: every reason once."""
+
+from types import SimpleNamespace as Of
+
+from hysteresis_bench.diagnosis.doubt.agreement import Agreement
+from hysteresis_bench.diagnosis.doubt.doubt import Doubt
+from hysteresis_bench.diagnosis.findings.words import Outcome, headline
+
+
+def outcome_of(adopted, needs):
+    stage = Of(held_out=None, fitted=Of(rmse=0.3))
+    evidence = Of(noise=Of(floor=0.1), floor=0.1)
+    return Outcome(
+        before=stage,
+        after=stage,
+        adopted=adopted,
+        found=Of(follows=True, evidence=evidence),
+        ties=(),
+        left=Of(matters=True, slow=False),
+        units={"output": "um"},
+        model="dahl",
+        doubt=Doubt(agreement=Agreement(needs, dict.fromkeys(needs, 0.3), {})),
+        alone=False,
+    )
+
+
+def test_stand_ins_are_told_together_where_the_reason_is_one():
+    needs = {"dahl": ("input-lag", "bias"), "lugre": ()}
+    said = headline(outcome_of(("bias", "saturation", "input-lag"), needs))
+    shape = "bias and saturation (without dynamics, any law may have the like in its shape)"
+    assert f"{shape}, and input-lag (lugre does without) may stand in for the law." in said
+    assert said.count("dynamics") == 1
+
+
+def test_a_stand_in_alone_is_told_with_its_reason():
+    said = headline(outcome_of(("input-lag",), {"dahl": ("input-lag",), "lugre": ()}))
+    assert said.endswith("input-lag (lugre does without) may stand in for the law.")
