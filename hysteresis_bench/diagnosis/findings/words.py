@@ -166,10 +166,10 @@ def _times(outcome: Outcome) -> str:
 
 
 def _gave_up(fallback: Fallback) -> str:
-    were = "was" if len(fallback.dropped) == 1 else "were"
+    were, them = ("was", "it") if len(fallback.dropped) == 1 else ("were", "them")
     return (
         f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the "
-        f"RMSE was {fallback.selected:.3g} with it and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
+        f"RMSE was {fallback.selected:.3g} with {them} and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
     )
 
 
