@@ -214,6 +214,7 @@ def _sweep(
 
 def _fitted_on(fitted: FittedModel) -> str:
     """On which inputs the model was fitted, as far as its file tells; in anything else it guesses."""
+    from hysteresis_bench.data.units import frequency_in
     from hysteresis_bench.fit.unseen.excited import AMPLITUDE, FREQUENCY
 
     known, units = fitted.data.get("excited") or {}, fitted.units
@@ -224,7 +225,7 @@ def _fitted_on(fitted: FittedModel) -> str:
     if FREQUENCY not in known:
         return f"{told}; their time was only an index, so that no frequency was."
     slow, fast = known[FREQUENCY]
-    return f"{told} and on {slow:.3g} to {fast:.3g} cycles a unit of time ({units['time']}); beyond, the model guesses."
+    return f"{told} and on {slow:.3g} to {frequency_in(units['time'], fast)}; beyond, the model guesses."
 
 
 def _print_sweep(found: pd.DataFrame, fitted: FittedModel, console: Console) -> None:

@@ -85,6 +85,13 @@ def seconds_in(unit: str, seconds: float) -> float:
         return seconds
 
 
+def frequency_in(unit: str, cycles: float) -> str:
+    """Cycles a unit of time in words: 3 Hz, 0.2 cycles a ms, 3 cycles a unit of time where that is not known."""
+    if same_unit(unit, "s"):
+        return f"{cycles:.4g} Hz"
+    return f"{cycles:.4g} cycles a {'unit of time' if unit == '1' else unit}"
+
+
 def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str) -> Dataset:
     """The records in the wanted units, column by column, with a sentence in `notes` on what was done.
 
@@ -122,9 +129,10 @@ def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str
     if any(unit != UNITLESS.get(name, "1") for name, unit in unstated.items()):
         taken = ", ".join(f"{name} as {unit}" for name, unit in unstated.items())
         notes.append(f"{where}: no unit is stated; taken as {whose}: {taken}.")
-    if unknown:
-        kept = ", ".join(f"{name} [{unit}]" for name, unit in unknown.items())
-        notes.append(f"{where}: {kept} stays as it is, because {whose} unit is not stated.")
+    for name, unit in unknown.items():
+        kept = f"{name} [{unit}] stays as it is, because {whose} unit of {name} is not stated."
+        if not any(note.endswith(kept) for note in dataset.notes):
+            notes.append(f"{where}: {kept}")
     return replace(dataset, records=tuple(records), notes=(*dataset.notes, *dict.fromkeys(notes)))
 
 

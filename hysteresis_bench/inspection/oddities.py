@@ -12,7 +12,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.spikes import spikes_told
-from hysteresis_bench.data.units import seconds_in
+from hysteresis_bench.data.units import frequency_in, seconds_in
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Record
@@ -31,6 +31,9 @@ CORNERS = 20
 """Samples of a cycle below which corners are cut."""
 ALIKE = 0.1
 """Relative difference up to which amplitudes and frequencies are one."""
+STEADY = 1.3
+"""Ratio of a record's upper to its lower quartile of frequencies up to which it has one: half cycles of few samples,
+and noise on a reversal, spread them."""
 
 
 def oddities(records: Sequence[Record]) -> tuple[str, ...]:
@@ -62,10 +65,10 @@ def amplitudes(record: Record) -> Array:
     return np.asarray(np.abs(np.diff(record.input[turns(record)])) / 2.0)
 
 
-def frequency(record: Record) -> float:
-    """Of the meant reversals, cycles a unit of time; NaN where there are fewer than two."""
+def frequencies(record: Record) -> Array:
+    """Quartiles of its half cycles between meant reversals, (3,), cycles a unit of time; NaN with fewer than two."""
     at = record.time[turns(record)]
-    return float(0.5 / np.median(np.diff(at))) if at.size > 1 else float("nan")
+    return np.quantile(0.5 / np.diff(at), (0.25, 0.5, 0.75)) if at.size > 1 else np.full(3, np.nan)
 
 
 def _constant(record: Record) -> str:
@@ -234,12 +237,14 @@ def _alike(records: Sequence[Record]) -> list[str]:
             f"one amplitude only ({np.median(every):.4g}): what small loops do, and whether the law is right for them, "
             f"cannot be seen. Add a record with growing or nested amplitudes."
         )
-    rates = np.array([frequency(record) for record in records if record.timed])
-    rates = rates[np.isfinite(rates)]
-    if rates.size and _one(rates):
+    timed = [record for record in records if record.timed]
+    rates = np.array([frequencies(record) for record in timed]).reshape(-1, 3)
+    rates = rates[np.isfinite(rates[:, 1])]
+    if rates.size and _one(rates[:, 1]) and np.all(rates[:, 2] <= STEADY * rates[:, 0]):
+        about = frequency_in(timed[0].units.get("time", "1"), float(np.median(rates[:, 1])))
         found.append(
-            f"one frequency only (about {np.median(rates):.3g} a unit of time): lags, delays and eddy currents cannot "
-            f"be told apart, nor told from the law. Add a record at another speed."
+            f"one frequency only (about {about}): lags, delays and eddy currents cannot be told apart, nor told from "
+            f"the law. Add a record at another speed."
         )
     return found
 

@@ -60,6 +60,21 @@ def test_good_records_are_not_scolded():
     assert oddities([replace(one, output=-one.output) for one in good]) == ()
 
 
+def test_a_record_of_many_frequencies_is_not_said_to_have_one():
+    chirp = np.sin(2 * np.pi * (0.5 * TIME + 0.8 * TIME**2))
+    said = " ".join(oddities([replace(record(), input=5.0 * chirp, output=chirp)]))
+    assert "one frequency only" not in said
+    noisy = replace(record(), input=record().input + noise(0.002))
+    assert "one frequency only (about 2" in " ".join(oddities([noisy]))
+
+
+def test_a_frequency_is_told_in_the_unit_of_time():
+    units = {"input": "V", "output": "um"}
+    one, other = (replace(record(), units={**units, "time": unit}) for unit in ("s", "min"))
+    assert "(about 2 Hz)" in " ".join(oddities([one]))
+    assert "(about 2 cycles a min)" in " ".join(oddities([other]))
+
+
 def test_a_record_without_output_or_movement_is_looked_at():
     still = Record(TIME, np.zeros(TIME.size), None)
     assert all("still" in one or "rests" in one or "frequency" not in one for one in oddities([still]))
