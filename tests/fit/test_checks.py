@@ -1,11 +1,12 @@
 """What a fit says of its parameters and of the records: edges of the box, advice of the law."""
 
 import numpy as np
+import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.fit.checks.advised import advice_with
-from hysteresis_bench.fit.checks.edges import edges_reached
+from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
 from hysteresis_bench.fit.fitting import FitOptions, fit_records
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
@@ -35,6 +36,18 @@ def test_a_weight_of_about_0_is_at_no_edge_and_a_width_at_the_end_of_its_box_is(
     assert not edges_reached(problem, near).any()
     assert edges_reached(problem, np.where(weights, high, middle)).tolist() == weights.tolist()
     assert edges_reached(problem, low)[problem.space.names.index("radius")]
+
+
+def test_parameters_at_edges_are_told_together():
+    columns = {"name": ["a", "b", "c"], "value": [0.25, 3.0, 1e-5]}
+    parameters = pd.DataFrame({**columns, "at_bound": [True, False, True]})
+    assert at_edges(parameters) == [
+        "a and c lie at the edges of their boxes (0.25 and 1e-05): the optimum may lie outside, and their standard "
+        "errors mean little."
+    ]
+    (alone,) = at_edges(parameters[:2])
+    assert alone.startswith("a lies at the edge of its box (0.25): the optimum may lie outside, and its standard error")
+    assert at_edges(parameters[1:2]) == []
 
 
 def test_a_law_asks_for_an_offset_only_where_no_effect_has_it():

@@ -17,6 +17,7 @@ from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.checks.advised import advice_with
+from hysteresis_bench.fit.checks.edges import edges_told
 from hysteresis_bench.fit.identifiability.combinations import listed
 
 
@@ -162,7 +163,9 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
 
 def _times(outcome: Outcome) -> str:
     fitted, held_out = outcome.leaves
-    return f"{fitted:.2g} times" if fitted > WRONG else f"{held_out:.2g} times (held out; {fitted:.2g} times fitted)"
+    if fitted > WRONG:
+        return f"{fitted:.2g} times the noise"
+    return f"{held_out:.2g} times the noise on what was held out, and {fitted:.2g} times on what was fitted"
 
 
 def _gave_up(fallback: Fallback) -> str:
@@ -184,7 +187,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if found.follows and (outcome.doubted or outcome.doubt.agreement):
         said.append(
-            f"The final system still leaves {_times(outcome)} the noise: the model's own law does not follow these data"
+            f"The final system still leaves {_times(outcome)}: the model's own law does not follow these data"
             f"{', and what is named may stand in for that' if outcome.doubted else ''}."
         )
     if outcome.cause:
@@ -197,10 +200,11 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")
+    at_edges: dict[str, dict[str, float]] = {}
     for name in final.at_bound:
-        effect = name.rpartition(".")[0]
-        place = f"{name} lies at the edge of its box ({final.values[name]:.4g})"
-        said.append(f"{place}: {effect} may stand in for something else." if effect else f"{place}.")
+        at_edges.setdefault(name.rpartition(".")[0], {})[name] = final.values[name]
+    for effect, values in at_edges.items():
+        said.append(f"{edges_told(values)}{f': {effect} may stand in for something else' if effect else ''}.")
     if outcome.alone and after.held_out:
         said.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 import pandas as pd
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.least_squares import at_bound
 from hysteresis_bench.fit.objective import Problem
 
@@ -25,9 +28,16 @@ def edges_reached(problem: Problem, values: Array) -> Array:
 
 
 def at_edges(parameters: pd.DataFrame) -> list[str]:
-    """A sentence a parameter that does."""
-    return [
-        f"{row.name} lies at the edge of its box ({row.value:.4g}): the optimum may lie outside, and its standard "
-        f"error means little."
-        for row in parameters[parameters["at_bound"]].itertuples(index=False)
-    ]
+    """A sentence on those that do, if any."""
+    rows = parameters[parameters["at_bound"]]
+    place = edges_told(dict(zip(rows["name"], rows["value"], strict=True)))
+    theirs = "their standard errors mean" if len(rows) > 1 else "its standard error means"
+    return [f"{place}: the optimum may lie outside, and {theirs} little."] if place else []
+
+
+def edges_told(values: Mapping[str, float]) -> str:
+    """A clause on parameters that do, by name, with their values; empty where there are none."""
+    if not values:
+        return ""
+    verb, edges = ("lies", "edge of its box") if len(values) == 1 else ("lie", "edges of their boxes")
+    return f"{listed([*values])} {verb} at the {edges} ({listed([f'{value:.4g}' for value in values.values()])})"
