@@ -85,6 +85,11 @@ def seconds_in(unit: str, seconds: float) -> float:
         return seconds
 
 
+def rounded(value: float, digits: int = 2) -> str:
+    """A number in a sentence or a table: 120 and not 1.2e+02; from a million on with its power of ten."""
+    return f"{float(f'{value:.{digits}g}'):g}"
+
+
 def frequency_in(unit: str, cycles: float) -> str:
     """Cycles a unit of time in words: 3 Hz, 0.2 cycles a ms, 3 cycles a unit of time where that is not known."""
     if same_unit(unit, "s"):
@@ -120,7 +125,10 @@ def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str
                     columns[name] = converted(values, unit, want)
                     changed[name] = f"{name} [{unit}] was converted to {want}"
                 except ValueError as error:
-                    faults[f'column "{name}" is in {unit}, {whose} {name} in {want}: {error}.'] = None
+                    has = (
+                        f"in {want}: {error}" if want != "1" else "has none: take it out of the header, or fit with it"
+                    )
+                    faults[f'column "{name}" is in {unit}, {whose} {name} {has}.'] = None
         units = {**stated, **{name: wanted[name] for name in wanted if name in columns or name in MEASURED}}
         records.append(_with_columns(record, columns, units))
     if faults:

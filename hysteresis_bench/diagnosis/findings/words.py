@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from hysteresis_bench import registry
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
@@ -164,8 +165,8 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
 def _times(outcome: Outcome) -> str:
     fitted, held_out = outcome.leaves
     if fitted > WRONG:
-        return f"{fitted:.2g} times the noise"
-    return f"{held_out:.2g} times the noise on what was held out, and {fitted:.2g} times on what was fitted"
+        return f"{rounded(fitted)} times the noise"
+    return f"{rounded(held_out)} times the noise on what was held out, and {rounded(fitted)} times on what was fitted"
 
 
 def _gave_up(fallback: Fallback) -> str:
@@ -194,9 +195,9 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
     if outcome.left.slow:
         said.append(
-            f"What is left is {after.fitted.rmse / floor:.2g} times the noise from sample to sample and is correlated, "
-            "but depends on nothing that was measured here, and no term describes it: slow noise, or a cause beside "
-            "the input that these data do not show."
+            f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and is "
+            "correlated, but depends on nothing that was measured here, and no term describes it: slow noise, or a "
+            "cause beside the input that these data do not show."
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")

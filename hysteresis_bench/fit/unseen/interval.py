@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
@@ -77,10 +78,10 @@ class Interval:
                 )
         slow, fast = self.speeds
         if record.timed and not slow / BEYOND <= (own := speed(record)) <= fast * BEYOND:
-            times = f"{own / fast:.2g} times the fastest" if own > fast else f"{own / slow:.2g} times the slowest"
+            limit, called = (fast, "fastest") if own > fast else (slow, "slowest")
             yield (
-                f"{record.name}: its input moves at {times} fitted record's speed; where the device knows a rate, the "
-                f"interval need not hold."
+                f"{record.name}: its input moves at {rounded(own / limit)} times the {called} fitted record's speed; "
+                f"where the device knows a rate, the interval need not hold."
             )
 
     def as_dict(self) -> dict[str, Any]:
