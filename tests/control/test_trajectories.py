@@ -137,6 +137,21 @@ def test_a_sweep_tells_what_to_expect():
         sweep(fitted("lugre", lugre), (1.0, 2.0))
 
 
+def test_a_range_that_noise_moves_off_0_is_swept_about_0():
+    """Friction begins without force: a sine about the noise's 0.3 would ask for force at rest."""
+    known = {"radius": 0.4, "gap": 0.0, "slope": -0.5, **{f"k{k}": 100.0 / k for k in range(1, 9)}}
+    model = fitted("maxwell-slip", known)
+    ranges = {"input": [-1.0, 1.0], "output": [-19.4, 20.0]}
+    table = sweep(replace(model, data={**model.data, "ranges": ranges}), (1.0,))
+    assert (table["left"] < 1e-6).all()
+
+
+def test_why_no_sine_is_reached_is_told_once():
+    with pytest.raises(ValueError, match="for none of 2 sines; for the first, of amplitude 50 and") as told:
+        sweep(fitted("bouc-wen", BOUC_WEN, ("saturation",)), (1.0,), (50.0, 60.0))
+    assert str(told.value).count("does not reach") == 1
+
+
 def test_what_the_fit_has_not_seen_is_told(tmp_path):
     model = fitted("bouc-wen", BOUC_WEN)
     seen = replace(model, data={**model.data, "excited": {"frequency": [1.0, 4.0], "amplitude": [1.0, 3.0]}})
