@@ -161,7 +161,12 @@ def _say_followed(followed: Followed, limit: float | None, table: Path, drawn: P
     import numpy as np
 
     if as_json:
-        said = {"samples": followed.time.size, "at_limit": followed.cut.sum(), "left": followed.left}
+        said = {
+            "samples": followed.time.size,
+            "at_limit": followed.cut.sum(),
+            "left": followed.left,
+            "missed": followed.missed,
+        }
         files = {"feed_forward": table, "figure": drawn}
         say_json({**said, "notes": followed.notes, **files})
         return
@@ -174,7 +179,13 @@ def _say_followed(followed: Followed, limit: float | None, table: Path, drawn: P
             f"{limit:g} and are cut, the first at time {first:g}; they are marked in the column at_limit.",
             highlight=False,
         )
-    console.print(f"By the model the output follows to {followed.left:.1g} of its range.", highlight=False)
+    follows = f"By the model the output follows to {followed.left:.1g} of its range"
+    where = (
+        f" where nothing is cut, and is off by up to {followed.missed:.2g} of it elsewhere"
+        if followed.cut.any()
+        else ""
+    )
+    console.print(f"{follows}{where}.", highlight=False)
     say_path(console, "feed-forward", table)
     say_path(console, "figure", drawn)
 

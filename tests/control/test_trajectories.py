@@ -119,6 +119,19 @@ def test_a_lag_that_is_undone_does_not_ring(rate):
     assert np.sum(np.abs(np.diff(found))) < 1.5 * np.sum(np.abs(np.diff(wanted)))
 
 
+def test_what_a_limit_costs_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_model(tmp_path / "model.json", fitted("bouc-wen", BOUC_WEN))
+    pd.DataFrame({"time": TIME, "output": WANTED}).to_csv("wanted.csv", index=False)
+    command = ["control", "model.json", "--reference", "wanted.csv", "--force"]
+    free = " ".join(CliRunner().invoke(main, command).output.split())
+    assert "of its range. feed-forward:" in free
+    limited = " ".join(CliRunner().invoke(main, [*command, "--voltage-limit", "1"]).output.split())
+    assert "of its range where nothing is cut, and is off by up to 0." in limited
+    told = json.loads(CliRunner().invoke(main, [*command, "--voltage-limit", "1", "--json"]).stdout)
+    assert told["left"] < 1e-6 < 0.05 < told["missed"]
+
+
 def test_a_sweep_tells_what_to_expect():
     table = sweep(fitted("prandtl-ishlinskii", PLAYS, ("resonance",)), (1.0, 10.0), (0.5, 1.5, 40.0))
     assert list(table["amplitude"].unique()) == [0.5, 1.5, 40.0]
