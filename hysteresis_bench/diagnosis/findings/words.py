@@ -17,6 +17,7 @@ from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.diagnosis.search.selection import MISFIT
 from hysteresis_bench.fit.checks.advised import advice_with
 from hysteresis_bench.fit.checks.edges import edges_told
 from hysteresis_bench.fit.identifiability.combinations import listed
@@ -92,6 +93,11 @@ class Outcome:
         held_out = self.after.held_out or self.after.fitted
         return self.after.fitted.rmse / self.evidence.floor, held_out.rmse / self.evidence.floor
 
+    @property
+    def reaches(self) -> bool:
+        """Does the final system come down to the noise, on what was fitted and on what was held out?"""
+        return max(self.leaves) <= MISFIT
+
 
 def headline(outcome: Outcome) -> str:
     """The verdict, with the error before and after; an effect that is tied is never named alone, and one beside
@@ -136,6 +142,8 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
         own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
         yield f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
         yield f"{cause.own:.3g}."
+    elif outcome.reaches:
+        yield "The law alone does not follow the data, and does with what is around it."
     else:
         yield "The law itself does not follow the data, and no other one here does clearly better."
     if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):
@@ -186,7 +194,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.insert(0, _gave_up(found.given_up))
     if not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
-    if found.follows and (outcome.doubted or outcome.doubt.agreement):
+    if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
         said.append(
             f"The final system still leaves {_times(outcome)}: the model's own law does not follow these data"
             f"{', and what is named may stand in for that' if outcome.doubted else ''}."
