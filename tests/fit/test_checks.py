@@ -1,9 +1,11 @@
 """What a fit says of its parameters and of the records: edges of the box, advice of the law."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 
-from hysteresis_bench import registry
+from hysteresis_bench import fit, registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.fit.checks.advised import advice_with
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
@@ -72,3 +74,12 @@ def test_a_fit_with_a_bias_does_not_ask_for_one():
     }
     assert "Add the effect bias" in told[()]
     assert "Add the effect bias" not in told["bias",]
+
+
+def test_a_held_out_record_that_goes_further_is_said_to_be_an_extrapolation():
+    near, far = (replace(record_of(0.8 * size * DRIVE, size * DRIVE), name=name) for size, name in ((1, "a"), (2, "b")))
+    told = " ".join(fit(Dataset((near, far), ("b",)), "dahl", options=FitOptions(budget=40)).warnings)
+    assert "b: 6" in told
+    assert "% of its samples lie beyond the fitted inputs (-4 to 4): its error tells of an extrapolation." in told
+    other = " ".join(fit(Dataset((near, far), ("a",)), "dahl", options=FitOptions(budget=40)).warnings)
+    assert "extrapolation" not in other

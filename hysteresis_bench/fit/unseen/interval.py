@@ -35,6 +35,17 @@ BEYOND = 1.25
 """Times the fastest, or slowest, fitted record, from which an input counts as of another speed."""
 
 
+def further(record: Record, ranges: Sequence[float]) -> str:
+    """How much of a record goes beyond the fitted inputs, a clause; empty where nothing does, or they are not known."""
+    if not ranges:
+        return ""
+    low, high = ranges
+    slack = 0.01 * (high - low)
+    outside = float(np.mean((record.input < low - slack) | (record.input > high + slack)))
+    beyond = f"of its samples lie beyond the fitted inputs ({low:.4g} to {high:.4g})"
+    return f"{record.name}: {outside:.0%} {beyond}" if outside else ""
+
+
 @dataclass(frozen=True)
 class Interval:
     """half_widths : unit of the output, a level of `LEVELS` each
@@ -67,15 +78,8 @@ class Interval:
 
     def beyond(self, record: Record, ranges: Sequence[float]) -> Iterator[str]:
         """Why it need not hold for a record, a sentence each; ranges : of the fitted inputs, in the record's unit."""
-        if ranges:
-            low, high = ranges
-            slack = 0.01 * (high - low)
-            outside = float(np.mean((record.input < low - slack) | (record.input > high + slack)))
-            if outside:
-                yield (
-                    f"{record.name}: {outside:.0%} of its samples lie beyond the fitted inputs ({low:.4g} to "
-                    f"{high:.4g}); there the interval need not hold."
-                )
+        if outside := further(record, ranges):
+            yield f"{outside}; there the interval need not hold."
         slow, fast = self.speeds
         if record.timed and not slow / BEYOND <= (own := speed(record)) <= fast * BEYOND:
             limit, called = (fast, "fastest") if own > fast else (slow, "slowest")
