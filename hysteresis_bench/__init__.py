@@ -117,13 +117,16 @@ def fit(
     from hysteresis_bench.diagnosis.laws.following import cannot_follow
     from hysteresis_bench.fit.fitting import DEFAULT, fit_records
     from hysteresis_bench.fit.preparation import Preparation
+    from hysteresis_bench.fit.unseen.interval import further
 
     given = options or DEFAULT
     found = fit_records(dataset, model, effects, settings=settings, bounds=bounds, fixed=fixed, options=given)
     seen = dataset.map(Preparation(given.input_offset, given.flip, given.skip)).fitted
     own = found.responses[found.responses["role"] == "fitted"]
     rmse = float(np.sqrt(np.mean((own["simulated"] - own["output"]) ** 2)))
-    return replace(found, warnings=(*found.warnings, *cannot_follow(model, effects, seen, rmse)))
+    far = [clause for one in dataset.held_out if (clause := further(one, found.model.data["ranges"]["input"]))]
+    extrapolated = (f"{clause}: its error tells of an extrapolation." for clause in far)
+    return replace(found, warnings=(*found.warnings, *extrapolated, *cannot_follow(model, effects, seen, rmse)))
 
 
 def diagnose(

@@ -179,13 +179,14 @@ class Part:
     """A fitted plugin as it goes on by one sample, behind an entry point of the group `hysteresis_bench.exports`:
     a function part(plugin, parameters by name, timed) in a module that has `law`, or `before` and `after`.
 
-    constants, state : what these functions find in p, and the length of s;  invertible : has `inverse`, or `undone`
+    constants : in p;  state : length of s;  invertible : has `inverse`, or `undone`;  not_undone : dynamics it lacks
     The function returns None for a part that changes nothing, and raises ValueError with why it cannot be exported.
     """
 
     constants: tuple[float, ...] = ()
     state: int = 0
     invertible: bool = False
+    not_undone: str = ""
 
 
 class Objective(Protocol):
@@ -225,8 +226,7 @@ class Optimizer(ABC):
 
     @abstractmethod
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:
-        """Search the unit box until the budget is spent or nothing is left to do. Returns nothing: the
-        meter keeps the trace, and the trace is the result. All randomness from rng."""
+        """Search the unit box until the budget is spent or nothing is left; the meter keeps a trace. Random: rng."""
 
     def evaluations_per_iteration(self, dimension: int) -> int | None:
         """What one iteration costs, where the algorithm has iterations in the papers' sense."""

@@ -161,7 +161,12 @@ def _say_followed(followed: Followed, limit: float | None, table: Path, drawn: P
     import numpy as np
 
     if as_json:
-        said = {"samples": followed.time.size, "at_limit": followed.cut.sum(), "left": followed.left}
+        said = {
+            "samples": followed.time.size,
+            "at_limit": followed.cut.sum(),
+            "left": followed.left,
+            "missed": followed.missed,
+        }
         files = {"feed_forward": table, "figure": drawn}
         say_json({**said, "notes": followed.notes, **files})
         return
@@ -174,7 +179,13 @@ def _say_followed(followed: Followed, limit: float | None, table: Path, drawn: P
             f"{limit:g} and are cut, the first at time {first:g}; they are marked in the column at_limit.",
             highlight=False,
         )
-    console.print(f"By the model the output follows to {followed.left:.1g} of its range.", highlight=False)
+    follows = f"By the model the output follows to {followed.left:.1g} of its range"
+    where = (
+        f" where nothing is cut, and is off by up to {followed.missed:.2g} of it elsewhere"
+        if followed.cut.any()
+        else ""
+    )
+    console.print(f"{follows}{where}.", highlight=False)
     say_path(console, "feed-forward", table)
     say_path(console, "figure", drawn)
 
@@ -214,6 +225,7 @@ def _sweep(
 
 def _fitted_on(fitted: FittedModel) -> str:
     """On which inputs the model was fitted, as far as its file tells; in anything else it guesses."""
+    from hysteresis_bench.data.units import frequency_in
     from hysteresis_bench.fit.unseen.excited import AMPLITUDE, FREQUENCY
 
     known, units = fitted.data.get("excited") or {}, fitted.units
@@ -224,7 +236,7 @@ def _fitted_on(fitted: FittedModel) -> str:
     if FREQUENCY not in known:
         return f"{told}; their time was only an index, so that no frequency was."
     slow, fast = known[FREQUENCY]
-    return f"{told} and on {slow:.3g} to {fast:.3g} cycles a unit of time ({units['time']}); beyond, the model guesses."
+    return f"{told} and on {slow:.3g} to {frequency_in(units['time'], fast)}; beyond, the model guesses."
 
 
 def _print_sweep(found: pd.DataFrame, fitted: FittedModel, console: Console) -> None:

@@ -162,9 +162,12 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     from rich.markup import escape
     from rich.table import Table
 
+    from hysteresis_bench.data.units import rounded
+    from hysteresis_bench.report.shared.text import sentence
+
     colour = {"effect-found": "green", "no-effect-needed": "green", "unexplained-residual": "yellow"}[found.verdict]
     console.print(f"[bold {colour}]{found.verdict}[/]  {escape(found.headline)}", highlight=False)
-    console.print(escape(found.memory.words), highlight=False, style="dim")
+    console.print(escape(sentence(found.memory.words)), highlight=False, style="dim")
     if found.ceiling is not None:
         console.print(escape(found.ceiling.words), highlight=False)
     if found.measured:
@@ -191,7 +194,7 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
 
     table = Table("parameter", "value", "standard error", "unit", box=None, pad_edge=False)
     for name, estimate in found.model.parameters.items():
-        error = "" if estimate.standard_error is None else f"{estimate.standard_error:.2g}"
+        error = "not determined" if estimate.standard_error is None else rounded(estimate.standard_error)
         table.add_row(name, f"{estimate.value:.5g}", error, escape(estimate.unit))
     console.print(table)
 

@@ -12,6 +12,8 @@ from hysteresis_bench.errors import UserError
 
 REPORT, CONTINUED = "report.html", ("trials.sqlite", "cases")
 """A study's page, and what a study or a study of diagnosis goes on from."""
+UNFINISHED = "unfinished.jsonl"
+"""What a command that was stopped goes on from; beside it, what it had begun to write is its own."""
 CLOSING = "closing.json"
 """What a study keeps beside the diagnosis at its end."""
 
@@ -54,7 +56,8 @@ def check_folder(
     if force:
         return
     faults = [f"{file} is one of the inputs." for file in inputs for name in files if _same(folder / name, file)]
-    if not (folder / page).is_file() or (folder / CLOSING).is_file():
+    own = (folder / page).is_file() or (folder / UNFINISHED).is_file()
+    if not own or (folder / CLOSING).is_file():
         faults += [f"{folder / name} is not this command's own." for name in files if (folder / name).exists()]
     if faults:
         raise UserError(str(folder), [*faults, "Choose another folder with --out, or --force to replace them."])

@@ -4,7 +4,7 @@
 
 Where every branch rises, with slopes from m to M, the error of a sample falls at least by 1 - m/M an iteration once the
 samples before it are right: the map is a contraction of causal operators [1]. Ours: M is measured on a ramp that spans
-the wanted range, and doubled wherever the error grows.
+the wanted range, and doubled wherever the error grows, or does not fall any more.
 
 [1] C. A. Desoer, M. Vidyasagar, Feedback Systems: Input-Output Properties, Academic Press (1975), chapter 3.
 """
@@ -26,7 +26,11 @@ from hysteresis_bench.signals import Record
 
 EXACT = 1e-10
 """Largest error that is left, as a share of the wanted range."""
+CLOSE = 1e-3
+"""What is left after all iterations that is still an inverse: where the output hardly moves, as within a clearance."""
 ITERATIONS = 20_000
+IDLE = 100
+"""Iterations without a smaller error after which the slope is taken to be too small: they go round in a circle."""
 RAMP = 400
 """Samples of the ramp on which the slope is measured."""
 STEEPER = 1.5
@@ -64,7 +68,7 @@ class IteratedInverse:
         wanted = np.asarray(position, dtype=float)
         span = float(np.ptp(wanted)) or float(np.max(np.abs(wanted))) or 1.0
         steepest = STEEPER * self._steepest(wanted, span)
-        u, best = np.zeros(wanted.size), np.inf
+        u, best, idle = np.zeros(wanted.size), np.inf, 0
         kept = (u, wanted - self._output(u))
         for _ in range(ITERATIONS):
             left = wanted - self._output(u)
@@ -72,12 +76,16 @@ class IteratedInverse:
             error = float(np.max(np.abs(left[~cut]), initial=0.0))
             if error <= EXACT * span:
                 return self._measured(u), cut
+            idle += 1
             if error < best or not np.isfinite(best):
-                best, kept = error, (u, left)
-            elif error > 2.0 * best:
-                steepest *= 2.0
+                best, kept, idle = error, (u, left), 0
+            elif error > 2.0 * best or idle > IDLE:
+                steepest, idle = 2.0 * steepest, 0
                 u, left = kept
             u = self._limited(u + left / steepest, limit)
+        if best <= CLOSE * span:
+            found = self._measured(kept[0])
+            return found, np.abs(found) >= limit
         raise ValueError(
             f"no input was found that makes the model follow the reference: {best / span:.2g} of its range is left. "
             "The law may saturate, or its output may fall where the input rises."

@@ -85,6 +85,18 @@ def seconds_in(unit: str, seconds: float) -> float:
         return seconds
 
 
+def rounded(value: float, digits: int = 2) -> str:
+    """A number in a sentence or a table: 120 and not 1.2e+02; from a million on with its power of ten."""
+    return f"{float(f'{value:.{digits}g}'):g}"
+
+
+def frequency_in(unit: str, cycles: float) -> str:
+    """Cycles a unit of time in words: 3 Hz, 0.2 cycles a ms, 3 cycles a unit of time where that is not known."""
+    if same_unit(unit, "s"):
+        return f"{cycles:.4g} Hz"
+    return f"{cycles:.4g} cycles a {'unit of time' if unit == '1' else unit}"
+
+
 def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str) -> Dataset:
     """The records in the wanted units, column by column, with a sentence in `notes` on what was done.
 
@@ -113,7 +125,10 @@ def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str
                     columns[name] = converted(values, unit, want)
                     changed[name] = f"{name} [{unit}] was converted to {want}"
                 except ValueError as error:
-                    faults[f'column "{name}" is in {unit}, {whose} {name} in {want}: {error}.'] = None
+                    has = (
+                        f"in {want}: {error}" if want != "1" else "has none: take it out of the header, or fit with it"
+                    )
+                    faults[f'column "{name}" is in {unit}, {whose} {name} {has}.'] = None
         units = {**stated, **{name: wanted[name] for name in wanted if name in columns or name in MEASURED}}
         records.append(_with_columns(record, columns, units))
     if faults:
@@ -122,9 +137,10 @@ def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str
     if any(unit != UNITLESS.get(name, "1") for name, unit in unstated.items()):
         taken = ", ".join(f"{name} as {unit}" for name, unit in unstated.items())
         notes.append(f"{where}: no unit is stated; taken as {whose}: {taken}.")
-    if unknown:
-        kept = ", ".join(f"{name} [{unit}]" for name, unit in unknown.items())
-        notes.append(f"{where}: {kept} stays as it is, because {whose} unit is not stated.")
+    for name, unit in unknown.items():
+        kept = f"{name} [{unit}] stays as it is, because {whose} unit of {name} is not stated."
+        if not any(note.endswith(kept) for note in dataset.notes):
+            notes.append(f"{where}: {kept}")
     return replace(dataset, records=tuple(records), notes=(*dataset.notes, *dict.fromkeys(notes)))
 
 

@@ -18,12 +18,13 @@ from hysteresis_bench.contracts import Optimizer
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
+from hysteresis_bench.fit.checks.advised import advice_with
 from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
-from hysteresis_bench.fit.checks.edges import at_edges
+from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
-from hysteresis_bench.fit.least_squares import at_bound, not_overlooked, polish
+from hysteresis_bench.fit.least_squares import not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
@@ -169,9 +170,9 @@ def fit_records(
         agreement,
         agrees,
         (
-            *system.model.advice(seen.fitted),
+            *advice_with(system.model, effects, seen.fitted),
             *not_closed(best.gap, best.repeats),
-            *at_edges(parameters, system.linear),
+            *at_edges(parameters),
             *analysis.sentences(),
         ),
         (*dataset.notes, *_notes(problem, options, best.repeats)),
@@ -291,7 +292,7 @@ def _error_table(system: System, values: Array, dataset: Dataset) -> pd.DataFram
 
 
 def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
-    edges = at_bound(problem.space, fitted.values)
+    edges = edges_reached(problem, fitted.values)
     rows = [
         {"name": name, **asdict(estimate), "at_bound": bool(edge)}
         for (name, estimate), edge in zip(fitted.parameters.items(), edges, strict=True)

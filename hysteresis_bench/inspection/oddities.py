@@ -12,7 +12,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.spikes import spikes_told
-from hysteresis_bench.data.units import seconds_in
+from hysteresis_bench.data.units import frequency_in, seconds_in
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Record
@@ -25,18 +25,24 @@ FALSE, RESTING, OPEN, DRIFTING, JITTER, NOISY = 3, 0.05, 0.03, 0.03, 0.05, 0.002
 """False reversals for a meant one; shares of samples, of the range, of the median step, of the range."""
 AHEAD = 0.02
 """Share of the rectangle around a cycle that it encloses against the usual sense."""
+SIGNIFICANT = 4.0
+"""Areas from this many of their standard errors are no accident."""
 FLAT = 5
 """Samples in a row at the largest output that are no accident."""
 CORNERS = 20
 """Samples of a cycle below which corners are cut."""
+CURVES = 3
+"""Records that each go one way from which they are reversal curves."""
 ALIKE = 0.1
 """Relative difference up to which amplitudes and frequencies are one."""
+STEADY = 1.3
+"""Ratio of a record's upper to its lower quartile of frequencies up to which it has one: half cycles of few samples,
+and noise on a reversal, spread them."""
 
 
 def oddities(records: Sequence[Record]) -> tuple[str, ...]:
     """Sentences on these records, each with what would help; empty where nothing is odd."""
     looks: tuple[Callable[[Record], str], ...] = (
-        _constant,
         _false_reversals,
         _input_noise,
         _plateau,
@@ -47,8 +53,10 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         _jitter,
         spikes_told,
     )
-    found = [said for record in records if record.time.size > 3 for look in looks if (said := look(record))]
-    return (*found, *_ahead(records), *_alike(records))
+    moving = [record for record in records if record.time.size > 3 and not _constant(record)]
+    found = [said for record in records if record.time.size > 3 and (said := _constant(record))]
+    found += [said for record in moving for look in looks if (said := look(record))]
+    return (*found, *_ahead(records), *_alike(moving))
 
 
 def turns(record: Record, share: float = TURN) -> Array:
@@ -62,10 +70,10 @@ def amplitudes(record: Record) -> Array:
     return np.asarray(np.abs(np.diff(record.input[turns(record)])) / 2.0)
 
 
-def frequency(record: Record) -> float:
-    """Of the meant reversals, cycles a unit of time; NaN where there are fewer than two."""
+def frequencies(record: Record) -> Array:
+    """Quartiles of its half cycles between meant reversals, (3,), cycles a unit of time; NaN with fewer than two."""
     at = record.time[turns(record)]
-    return float(0.5 / np.median(np.diff(at))) if at.size > 1 else float("nan")
+    return np.quantile(0.5 / np.diff(at), (0.25, 0.5, 0.75)) if at.size > 1 else np.full(3, np.nan)
 
 
 def _constant(record: Record) -> str:
@@ -214,19 +222,28 @@ def _ahead(records: Sequence[Record]) -> list[str]:
 
 
 def _turning(record: Record) -> float:
-    """The area of whole cycles over the rectangles about them, positive where a rising output is ahead of its input."""
+    """The area of whole cycles over the rectangles about them, positive where a rising output is ahead of its input;
+    0 where the noise may have drawn it."""
     at = turns(record)[::2]
     if record.output is None or at.size < 2 or not np.ptp(record.output) > 0.0:
         return 0.0
     u, y = record.input[at[0] : at[-1] + 1], record.output[at[0] : at[-1] + 1]
     rises = np.sign(float(np.sum((u - np.mean(u)) * (y - np.mean(y)))))
     rectangles = (at.size - 1) * float(np.ptp(u)) * (float(np.ptp(y)) or 1.0)
-    return float(rises * np.sum(np.diff(u) * (y[1:] + y[:-1]) / 2.0) / rectangles)
+    area = float(np.sum(np.diff(u) * (y[1:] + y[:-1]) / 2.0))
+    noise = 1.4826 * float(np.median(np.abs(np.diff(y, 2)))) / np.sqrt(6.0) if y.size > 2 else 0.0
+    error = noise * float(np.sqrt(np.sum(((u[2:] - u[:-2]) / 2.0) ** 2)))
+    return float(rises * area / rectangles) if abs(area) > SIGNIFICANT * error else 0.0
 
 
 def _alike(records: Sequence[Record]) -> list[str]:
     """What all records together do not excite."""
     found = []
+    if 0 < len(records) < CURVES and not any(turns(record).size for record in records):
+        found.append(
+            "the input never turns: one way tells no hysteresis from a curve of the input. Add the way back, and loops "
+            "within it."
+        )
     sizes = [amplitudes(record) for record in records]
     every = np.concatenate(sizes) if sizes else np.zeros(0)
     if every.size > 1 and _one(every):
@@ -234,12 +251,14 @@ def _alike(records: Sequence[Record]) -> list[str]:
             f"one amplitude only ({np.median(every):.4g}): what small loops do, and whether the law is right for them, "
             f"cannot be seen. Add a record with growing or nested amplitudes."
         )
-    rates = np.array([frequency(record) for record in records if record.timed])
-    rates = rates[np.isfinite(rates)]
-    if rates.size and _one(rates):
+    timed = [record for record in records if record.timed]
+    rates = np.array([frequencies(record) for record in timed]).reshape(-1, 3)
+    rates = rates[np.isfinite(rates[:, 1])]
+    if rates.size and _one(rates[:, 1]) and np.all(rates[:, 2] <= STEADY * rates[:, 0]):
+        about = frequency_in(timed[0].units.get("time", "1"), float(np.median(rates[:, 1])))
         found.append(
-            f"one frequency only (about {np.median(rates):.3g} a unit of time): lags, delays and eddy currents cannot "
-            f"be told apart, nor told from the law. Add a record at another speed."
+            f"one frequency only (about {about}): lags, delays and eddy currents cannot be told apart, nor told from "
+            f"the law. Add a record at another speed."
         )
     return found
 

@@ -88,6 +88,20 @@ def test_killed_halfway_it_ends_in_the_same_file(here, monkeypatch, asked, after
     assert sorted(p.name for p in (here / "killed").iterdir()) == sorted(p.name for p in (here / "whole").iterdir())
 
 
+def test_stopped_while_it_writes_its_page_it_may_write_over_what_it_had_written(here, monkeypatch):
+    with monkeypatch.context() as stopping:
+
+        def stopped(*_):
+            raise KeyboardInterrupt
+
+        stopping.setattr("hysteresis_bench.report.fit.folder.write_fit_page", stopped)
+        CliRunner().invoke(main, ["fit", "loop.csv", "--model", "polynomial"])
+    assert {"model.json", FILE} <= {path.name for path in (here / "loop-fit").iterdir()}
+    again = CliRunner().invoke(main, ["fit", "loop.csv", "--model", "polynomial"])
+    assert again.exit_code == 0, again.output
+    assert FILE not in {path.name for path in (here / "loop-fit").iterdir()}
+
+
 def test_stopped_by_ctrl_c_it_says_what_is_kept(here, monkeypatch):
     def stopped(self, question, answer, known=Journal.__setitem__):
         known(self, question, answer)

@@ -1,5 +1,7 @@
 """The inverse by successive correction: the law answers its input with what was wanted, or it is said why not."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
@@ -79,3 +81,24 @@ def test_where_there_is_no_inverse_it_is_said(name, values, wanted, said):
 def test_a_law_that_depends_on_the_rate_is_refused():
     with pytest.raises(ValueError, match="depends on the rate"):
         inverse("lugre", in_the_box("lugre", 0.8)).input_for(0.1 * DRIVE)
+
+
+def test_where_the_output_hardly_moves_a_close_input_is_enough(monkeypatch):
+    """Within its clearance a friction device falls a little as its input rises: no iteration ends exactly there."""
+    names = [parameter.name for parameter in registry.build("models", "maxwell-slip").parameters]
+    values = {"radius": 0.35, "gap": 0.001, "slope": -0.9, "k2": 800.0, "k4": 200.0}
+    built = inverse("maxwell-slip", [values.get(name, 0.0) for name in names])
+    wanted = 20.0 * DRIVE * np.clip(3.0 * TIME, 0.0, 1.0) ** 3
+    monkeypatch.setattr(import_module(IteratedInverse.__module__), "ITERATIONS", 1000)
+    found, _ = built.input_for(wanted)
+    assert np.max(np.abs(built._output(found) - wanted)) <= 1e-3 * np.ptp(wanted)
+
+
+def test_a_law_that_is_steepest_after_a_reversal_is_inverted():
+    """The ramp does not show how steep it is: the correction would go round in a circle."""
+    names = [parameter.name for parameter in registry.build("models", "maxwell-slip").parameters]
+    values = {"radius": 0.4, "slope": 0.5, **{f"k{k}": 100.0 / k for k in range(1, 9)}}
+    built = inverse("maxwell-slip", [values.get(name, 0.0) for name in names])
+    wanted = 17.0 * np.sin(19.0 * TIME) * np.clip(3.0 * TIME, 0.0, 1.0) ** 3
+    found, _ = built.input_for(wanted)
+    assert np.max(np.abs(built._output(found) - wanted)) <= 1e-9 * np.ptp(wanted)

@@ -119,6 +119,19 @@ def test_a_lag_that_is_undone_does_not_ring(rate):
     assert np.sum(np.abs(np.diff(found))) < 1.5 * np.sum(np.abs(np.diff(wanted)))
 
 
+def test_what_a_limit_costs_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_model(tmp_path / "model.json", fitted("bouc-wen", BOUC_WEN))
+    pd.DataFrame({"time": TIME, "output": WANTED}).to_csv("wanted.csv", index=False)
+    command = ["control", "model.json", "--reference", "wanted.csv", "--force"]
+    free = " ".join(CliRunner().invoke(main, command).output.split())
+    assert "of its range. feed-forward:" in free
+    limited = " ".join(CliRunner().invoke(main, [*command, "--voltage-limit", "1"]).output.split())
+    assert "of its range where nothing is cut, and is off by up to 0." in limited
+    told = json.loads(CliRunner().invoke(main, [*command, "--voltage-limit", "1", "--json"]).stdout)
+    assert told["left"] < 1e-6 < 0.05 < told["missed"]
+
+
 def test_a_sweep_tells_what_to_expect():
     table = sweep(fitted("prandtl-ishlinskii", PLAYS, ("resonance",)), (1.0, 10.0), (0.5, 1.5, 40.0))
     assert list(table["amplitude"].unique()) == [0.5, 1.5, 40.0]
@@ -135,6 +148,21 @@ def test_a_sweep_tells_what_to_expect():
     lugre = {"distance": 0.4, "stiction": 1.3, "v_s": 8.0, "slope": 0.4, "F_C": 1.5, "sigma_1": 0.1, "sigma_2": 0.1}
     with pytest.raises(ValueError, match="depends on the rate"):
         sweep(fitted("lugre", lugre), (1.0, 2.0))
+
+
+def test_a_range_that_noise_moves_off_0_is_swept_about_0():
+    """Friction begins without force: a sine about the noise's 0.3 would ask for force at rest."""
+    known = {"radius": 0.4, "gap": 0.0, "slope": -0.5, **{f"k{k}": 100.0 / k for k in range(1, 9)}}
+    model = fitted("maxwell-slip", known)
+    ranges = {"input": [-1.0, 1.0], "output": [-19.4, 20.0]}
+    table = sweep(replace(model, data={**model.data, "ranges": ranges}), (1.0,))
+    assert (table["left"] < 1e-6).all()
+
+
+def test_why_no_sine_is_reached_is_told_once():
+    with pytest.raises(ValueError, match="for none of 2 sines; for the first, of amplitude 50 and") as told:
+        sweep(fitted("bouc-wen", BOUC_WEN, ("saturation",)), (1.0,), (50.0, 60.0))
+    assert str(told.value).count("does not reach") == 1
 
 
 def test_what_the_fit_has_not_seen_is_told(tmp_path):

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from hysteresis_bench.data.data_files import read_data
-from hysteresis_bench.data.units import converted, in_units, same_unit, seconds_in
+from hysteresis_bench.data.units import converted, frequency_in, in_units, rounded, same_unit, seconds_in
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset, Record
 
@@ -51,6 +51,33 @@ def test_conversions(value, unit, wanted, expected):
 def test_what_does_not_convert(unit, wanted):
     with pytest.raises(ValueError, match="does not convert into"):
         converted(np.ones(2), unit, wanted)
+
+
+@pytest.mark.parametrize(
+    ("value", "words"), [(123.4, "120"), (0.00123, "0.0012"), (1.0, "1"), (98765.0, "99000"), (3.71e7, "3.7e+07")]
+)
+def test_numbers_in_sentences_have_no_needless_powers_of_ten(value, words):
+    assert rounded(value) == words
+
+
+def test_a_unit_where_the_model_has_none_is_refused_with_what_to_do():
+    record = Record(np.arange(3.0), np.arange(3.0), None, units={"time": "s", "input": "kg"})
+    with pytest.raises(UserError, match="is in kg, the model's input has none: take it out of the header, or fit with"):
+        in_units(Dataset((record,)), {"time": "s", "input": "1", "output": "1"}, "new.csv", "the model's")
+
+
+def test_a_column_that_the_model_does_not_know_is_told_once():
+    found = in_model_units({"time": "s", "input": "V", "output": "um", "load": "N"}, load=np.ones(3))
+    said = "new.csv: load [N] stays as it is, because the model's unit of load is not stated."
+    assert found.notes == (said,)
+    assert in_units(found, MODEL, "the records", "the model's").notes == (said,)
+
+
+@pytest.mark.parametrize(
+    ("unit", "words"), [("s", "2 Hz"), ("sec", "2 Hz"), ("ms", "2 cycles a ms"), ("1", "2 cycles a unit of time")]
+)
+def test_a_frequency_in_words(unit, words):
+    assert frequency_in(unit, 2.0) == words
 
 
 def test_conversions_are_told_in_one_line():

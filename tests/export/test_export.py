@@ -283,6 +283,9 @@ def test_an_inverse_says_what_it_leaves_out():
     assert "leaves out: saturation." in text
     assert "leaves out: input-lag; undone one sample at a time it would ring" in text
     assert "leaves out: creep" in " ".join(exported(growing(), "c").split())
+    staged = " ".join(exported(fitted("hammerstein"), "c").split())
+    assert "leaves out: the linear stage of hammerstein; undone one sample at a time it would ring" in staged
+    assert "leaves out" not in exported(fitted("hammerstein", unit="sample"), "c")
 
 
 def growing():

@@ -10,7 +10,7 @@ import pytest
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.fit.identifiability.analysis import analyse, profile
-from hysteresis_bench.fit.identifiability.combinations import Combination, blind_groups, sparsest
+from hysteresis_bench.fit.identifiability.combinations import Blindness, Combination, blind_groups, sparsest
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Parameter, Space
@@ -106,6 +106,18 @@ def test_products_sums_and_idle_parameters_are_told(noise):
         "first and second act only through first + second: fix one, for example first.",
     ]
     assert list(np.isfinite(found.standard_errors)) == [False, False, True, False, False, False]
+
+
+def test_of_many_parameters_a_sentence_counts_the_others():
+    names = tuple(f"w{k}" for k in range(1, 21))
+    few = Blindness(names[:3], (Combination("sum", (("w1", 1.0), ("w2", 1.0))),), names[:1])
+    assert str(few) == "w1, w2 and w3 act only through w1 + w2: fix one, for example w1."
+    alone = tuple(Combination("sum", ((name, 1.0),)) for name in names[:11])
+    assert str(Blindness(names, alone, names[:9])) == (
+        "w1, w2, w3, w4, w5, w6, w7, w8 and 12 more act only through 11 combinations of them: fix 9, for example w1, "
+        "w2, w3, w4, w5, w6, w7, w8 and 1 more."
+    )
+    assert str(Blindness(names, (), ())).startswith("w1, w2, w3, w4, w5, w6, w7, w8 and 12 more do not act")
 
 
 def test_fixing_what_was_told_makes_the_rest_identifiable():

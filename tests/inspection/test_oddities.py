@@ -60,6 +60,42 @@ def test_good_records_are_not_scolded():
     assert oddities([replace(one, output=-one.output) for one in good]) == ()
 
 
+def test_noise_is_not_said_to_run_ahead_and_a_force_over_its_way_is():
+    for seed in range(20):
+        output = np.random.default_rng(seed).standard_normal(200)
+        alone = replace(record(time=TIME[:200] * 5.0), output=output)
+        assert "runs ahead" not in " ".join(oddities([alone]))
+    ahead = 2.0 * np.sin(2 * np.pi * 2.0 * TIME + 0.2) + noise(0.2)
+    assert "runs ahead" in " ".join(oddities([even(output=lambda _: ahead)]))
+
+
+def test_an_input_that_never_turns_is_told_but_not_of_reversal_curves():
+    one_way = Record(TIME, TIME, TIME**2)
+    assert "the input never turns" in " ".join(oddities([one_way]))
+    curves = [Record(TIME, start + (3.0 - start) * TIME / 3.0, TIME**2, str(start)) for start in (0.0, 1.0, 2.0)]
+    assert "never turns" not in " ".join(oddities(curves))
+
+
+def test_of_a_constant_input_nothing_else_is_said():
+    (said,) = oddities([Record(TIME, np.ones(TIME.size), np.sin(TIME))])
+    assert "the input is 1 throughout" in said
+
+
+def test_a_record_of_many_frequencies_is_not_said_to_have_one():
+    chirp = np.sin(2 * np.pi * (0.5 * TIME + 0.8 * TIME**2))
+    said = " ".join(oddities([replace(record(), input=5.0 * chirp, output=chirp)]))
+    assert "one frequency only" not in said
+    noisy = replace(record(), input=record().input + noise(0.002))
+    assert "one frequency only (about 2" in " ".join(oddities([noisy]))
+
+
+def test_a_frequency_is_told_in_the_unit_of_time():
+    units = {"input": "V", "output": "um"}
+    one, other = (replace(record(), units={**units, "time": unit}) for unit in ("s", "min"))
+    assert "(about 2 Hz)" in " ".join(oddities([one]))
+    assert "(about 2 cycles a min)" in " ".join(oddities([other]))
+
+
 def test_a_record_without_output_or_movement_is_looked_at():
     still = Record(TIME, np.zeros(TIME.size), None)
     assert all("still" in one or "rests" in one or "frequency" not in one for one in oddities([still]))

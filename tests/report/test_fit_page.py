@@ -66,6 +66,33 @@ def test_a_fit_without_held_out_records_says_so(tmp_path):
     assert "No record was held out" in html
 
 
+def test_the_largest_error_is_said_to_be_of_the_record_that_has_it(tmp_path):
+    one, other = FIT["records"][0], {**FIT["records"][0], "record": "other", "relative_rms": 0.005, "max_error": 0.02}
+    html = write_fit_page(tmp_path, {**FIT, "records": [one, other]}, fit_responses()).read_text(encoding="utf-8")
+    assert "at worst (other) the model leaves a relative RMS of 0.5" in html
+    assert "a largest error of 6\u202f% (in one/1)" in html
+
+
+def test_a_command_between_backticks_is_set_as_code_and_nothing_else_is(tmp_path):
+    warned = {**FIT, "warnings": ["5 < 6; `diagnose` looks for it."], "notes": ["one ` alone"]}
+    html = write_fit_page(tmp_path, warned, fit_responses()).read_text(encoding="utf-8")
+    assert "<li>5 &lt; 6; <code>diagnose</code> looks for it.</li>" in html
+    assert "<li>one ` alone</li>" in html
+
+
+def test_the_title_names_the_records_that_were_fitted_and_no_others(tmp_path):
+    from hysteresis_bench.fit.fitting import FitOptions, fit_records
+    from hysteresis_bench.report.fit.folder import write_fit
+    from hysteresis_bench.signals import Dataset, Record
+
+    time = np.linspace(0.0, 2.0, 60)
+    drive = np.sin(7.0 * time)
+    records = tuple(Record(time=time, input=drive, output=2.0 * drive, name=name) for name in ("seen", "unseen"))
+    dataset = Dataset(records, ("unseen",))
+    page = write_fit(tmp_path, fit_records(dataset, "dahl", options=FitOptions(budget=40)), [])
+    assert "<h1>dahl fitted to seen</h1>" in page.read_text(encoding="utf-8")
+
+
 def test_the_law_of_plays_shows_its_weights_and_another_its_everett_function(tmp_path):
     from hysteresis_bench.fit.model_file import Estimate, FittedModel
     from hysteresis_bench.report.laws.memory import memory_section

@@ -17,6 +17,8 @@ from hysteresis_bench.progress import OnStep, Step, quiet
 
 SHARES = (0.1, 0.25, 0.5, 0.9)
 """Amplitudes in half ranges of the fitted outputs, about their middle."""
+CENTRED = 0.05
+"""Share of the half range of the fitted outputs up to which their middle is taken as 0, where a device is at rest."""
 PERIODS, SCORED, SAMPLES = 4, 2, 250
 """Of a sine, of these at the end scored, and samples a period."""
 
@@ -38,7 +40,11 @@ def sweep(
         raise ValueError("the model file does not keep the range of the fitted records; give an amplitude.")
     low, high = ranges.get("output", (0.0, 0.0))
     least, most = ranges.get("input", (-np.inf, np.inf))
-    middle, wanted = 0.5 * (low + high), tuple(amplitudes) or tuple(0.5 * (high - low) * share for share in SHARES)
+    middle, half = 0.5 * (low + high), 0.5 * (high - low)
+    middle, wanted = (
+        middle if abs(middle) > CENTRED * half else 0.0,
+        tuple(amplitudes) or tuple(half * s for s in SHARES),
+    )
     rows: list[dict[str, Any]] = []
     for amplitude, frequency in product(wanted, frequencies):
         on_step(Step("sines", len(rows), len(wanted) * len(frequencies)))
@@ -69,7 +75,16 @@ def sweep(
 
 def _everywhere(rows: Sequence[dict[str, Any]]) -> str:
     """Why no input was found, "" where one was."""
-    return "" if any(not row["reason"] for row in rows) else " ".join(dict.fromkeys(row["reason"] for row in rows))
+    if any(not row["reason"] for row in rows):
+        return ""
+    reasons = list(dict.fromkeys(row["reason"] for row in rows))
+    if len(reasons) == 1:
+        return str(reasons[0])
+    first = rows[0]
+    return (
+        f"for none of {len(rows)} sines; for the first, of amplitude {first['amplitude']:.4g} and frequency "
+        f"{first['frequency']:.4g}: {first['reason']}"
+    )
 
 
 def _own_error(fitted: FittedModel) -> float:

@@ -13,7 +13,7 @@ from hysteresis_bench.control.compensation import Forward
 from hysteresis_bench.control.trajectories.driven import Driven, drive
 from hysteresis_bench.data.data_files import read_columns, time_faults
 from hysteresis_bench.data.layout import AS_THEY_SAY, Layout
-from hysteresis_bench.data.units import in_units
+from hysteresis_bench.data.units import frequency_in, in_units
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.settling import is_closed
@@ -39,7 +39,15 @@ class Followed:
     @property
     def left(self) -> float:
         """The largest error that the model leaves where nothing is cut, as a share of the trajectory's range."""
-        error = np.abs(self.reached - self.output)[~self.cut]
+        return self._largest(~self.cut)
+
+    @property
+    def missed(self) -> float:
+        """The same of all samples."""
+        return self._largest(np.ones_like(self.cut))
+
+    def _largest(self, of: Array) -> float:
+        error = np.abs(self.reached - self.output)[of]
         return float(np.max(error, initial=0.0)) / (float(np.ptp(self.output)) or 1.0)
 
 
@@ -98,8 +106,9 @@ def _beyond(fitted: FittedModel, record: Record, needed: Array) -> Iterator[str]
     if rate := [word for word in unlike(known, own) if word in ("slower", "faster")]:
         (low, high), (least, most) = known[FREQUENCY], own[FREQUENCY]
         yield (
-            f"The input turns {' and '.join(rate)} than the fitted ones: {least:.3g} to {most:.3g} cycles a unit of "
-            f"time, fitted {low:.3g} to {high:.3g}. Where the device knows a rate, the model guesses."
+            f"The input turns {' and '.join(rate)} than the fitted ones: {least:.3g} to "
+            f"{frequency_in(fitted.units['time'], most)}, fitted {low:.3g} to {high:.3g}. Where the device knows "
+            "a rate, the model guesses."
         )
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.ceiling.bank import Bank
 from hysteresis_bench.diagnosis.ceiling.folds import folds_of
 from hysteresis_bench.diagnosis.ceiling.nested import Nested
@@ -92,8 +93,8 @@ class Ceiling:
             return f"{said} The named model leaves nothing to be found."
         if self.better:
             return (
-                f"{said} The black box does clearly better, by {self.advantage:.2g} standard errors: what is missing "
-                "is in these data, in the law or as an effect."
+                f"{said} The black box does clearly better, by {rounded(self.advantage)} standard errors: what is "
+                "missing is in these data, in the law or as an effect."
             )
         if self.repeats and self.named <= REMAINS * self.repeats:
             return (
@@ -106,8 +107,8 @@ class Ceiling:
                 "one other excitation: add some."
             )
         return (
-            f"{said} The black box does not do clearly better: what is left, {self.named / self.floor:.2g} times the "
-            "noise, is nothing that it finds in the input's history or in a smooth course of time or path. Rather "
+            f"{said} The black box does not do clearly better: what is left, {rounded(self.named / self.floor)} times "
+            "the noise, is nothing that it finds in the input's history or in a smooth course of time or path. Rather "
             "than search for further effects of these, measure another quantity that may act, such as a temperature or "
             "a load, repeat an excitation to hear slow noise, or add excitations."
         )

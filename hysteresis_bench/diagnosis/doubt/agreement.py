@@ -42,7 +42,7 @@ class Agreement:
     def without(self, name: str) -> str:
         """Why it may stand in for the law: the best one beside the asked one that needs nothing like it, or none."""
         if is_shape(name):
-            return "as it has no dynamics, any law may have it in its shape"
+            return "without dynamics, any law may have the like in its shape"
         others = list(self.needs.items())[1:]
         found = next((law for law, needed in others if not any(alike(name, one) for one in needed)), "")
         return found and f"{found} does without"

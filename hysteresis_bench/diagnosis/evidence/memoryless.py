@@ -35,7 +35,7 @@ class Thinned:
     """A record with its history, and which of its samples count.
 
     time, u : (samples,) of the whole record;  keep : those that count;  y : the output there
-    turns : samples at which the input turns
+    turns : samples at which the input turns;  unit : of the time
     """
 
     time: Array
@@ -43,6 +43,7 @@ class Thinned:
     y: Array
     keep: Array
     turns: Array
+    unit: str
 
     @property
     def period(self) -> float:
@@ -74,6 +75,7 @@ def thinned(views: Sequence[View]) -> list[Thinned]:
             view.y[::every],
             np.arange(view.record.history, view.record.time.size, every),
             view.turns,
+            view.record.units.get("time", "s"),
         )
         for view in views
     ]
@@ -108,25 +110,25 @@ def lagged_laws(views: Sequence[Thinned], spline: Spline, own: Law, score: Score
     """The best curve of the delayed input, of the lagged input, lagged curve, and curve with a resonance, alike for
     all records; and `own`, the curve of the input with each record's short delay. Each plus a spectrum of lags."""
     lags, still = lags_of(views), tuple(0.0 for _ in views)
-    curves = spline.of(views, [view.u for view in views])
+    curves, unit = spline.of(views, [view.u for view in views]), views[0].unit
 
     def late(value: float) -> Law:
         delays = (value,) * len(views)
-        return Law(f"curve of the input {value:.3g} ago", delays, [delayed_curve(views, spline, delays), lags])
+        return Law(f"curve of the input {value:.3g} {unit} ago", delays, [delayed_curve(views, spline, delays), lags])
 
     def wiener(value: float) -> Law:
-        lagged = [covariates.low_pass(view.time, view.u, value) for view in views]
-        return Law(f"curve of the input lagged by {value:.3g}", still, [np.vstack(spline.of(views, lagged)), lags])
+        lagged = spline.of(views, [covariates.low_pass(view.time, view.u, value) for view in views])
+        return Law(f"curve of the input behind a lag of {value:.3g} {unit}", still, [np.vstack(lagged), lags])
 
     def hammerstein(value: float) -> Law:
         lagged = [
             covariates.low_pass(view.time[view.keep], part, value) for view, part in zip(views, curves, strict=True)
         ]
-        return Law(f"curve of the input, lagged by {value:.3g}", still, [np.vstack(lagged), lags])
+        return Law(f"lag of {value:.3g} {unit} behind a curve of the input", still, [np.vstack(lagged), lags])
 
     def resonance(value: float) -> Law:
         modes = np.vstack([_modes(view, 1.0 / value) for view in views])
-        return Law(f"curve of the input and a resonance at {1 / value:.3g} rad", still, [static, modes, lags])
+        return Law(f"curve of the input and a resonance at {1 / value:.3g} rad/{unit}", still, [static, modes, lags])
 
     static = np.vstack(curves)
     grid = SHARED_DELAYS * min(view.period for view in views)

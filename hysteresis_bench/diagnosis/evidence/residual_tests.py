@@ -17,6 +17,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.units import frequency_in
 from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates, spectrum
 from hysteresis_bench.diagnosis.evidence.noise import period
 from hysteresis_bench.diagnosis.evidence.view import View
@@ -89,7 +90,8 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
         longest, residual = max(zip(views, residuals, strict=True), key=lambda pair: pair[1].size)
         if residual.size >= spectrum.FEWEST:
             line = spectrum.line(residual, longest.step)
-            words = f"has a spectral line at {line.frequency:.4g} Hz{_drive(longest, line.frequency)}"
+            at = frequency_in(longest.record.units.get("time", "1"), line.frequency)
+            words = f"has a spectral line at {at}{_drive(longest, line.frequency)}"
             yield test("spectral-line", line.ratio, line.p, line.share, words)
             yield test("coherence", *spectrum.coherence(residual, longest.u), "follows the input linearly")
 

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from hysteresis_bench import registry
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
@@ -16,6 +17,9 @@ from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.diagnosis.search.selection import MISFIT
+from hysteresis_bench.fit.checks.advised import advice_with
+from hysteresis_bench.fit.checks.edges import edges_told
 from hysteresis_bench.fit.identifiability.combinations import listed
 
 
@@ -89,6 +93,11 @@ class Outcome:
         held_out = self.after.held_out or self.after.fitted
         return self.after.fitted.rmse / self.evidence.floor, held_out.rmse / self.evidence.floor
 
+    @property
+    def reaches(self) -> bool:
+        """Does the final system come down to the noise, on what was fitted and on what was held out?"""
+        return max(self.leaves) <= MISFIT
+
 
 def headline(outcome: Outcome) -> str:
     """The verdict, with the error before and after; an effect that is tied is never named alone, and one beside
@@ -133,6 +142,8 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
         own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
         yield f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
         yield f"{cause.own:.3g}."
+    elif outcome.reaches:
+        yield "The law alone does not follow the data, and does with what is around it."
     else:
         yield "The law itself does not follow the data, and no other one here does clearly better."
     if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):
@@ -145,9 +156,11 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
     if refused := outcome.doubt.asks_for(outcome.adopted):
         yield f"{listed(refused)} would be needed too, but does not help {outcome.model} to predict records left out."
     if outcome.stand_ins:
-        doing = {name: agreed.without(name) if agreed else "" for name in outcome.stand_ins}
-        disputed = [f"{name} ({reason})" if reason else name for name, reason in doing.items()]
-        yield f"{listed(disputed)} may stand in for the law."
+        alike: dict[str, list[str]] = {}
+        for name in outcome.stand_ins:
+            alike.setdefault(agreed.without(name) if agreed else "", []).append(name)
+        disputed = [f"{listed(names)} ({reason})" if reason else listed(names) for reason, names in alike.items()]
+        yield f"{', and '.join(disputed)} may stand in for the law."
 
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
@@ -159,14 +172,16 @@ def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
 
 def _times(outcome: Outcome) -> str:
     fitted, held_out = outcome.leaves
-    return f"{fitted:.2g} times" if fitted > WRONG else f"{held_out:.2g} times (held out; {fitted:.2g} times fitted)"
+    if fitted > WRONG:
+        return f"{rounded(fitted)} times the noise"
+    return f"{rounded(held_out)} times the noise on what was held out, and {rounded(fitted)} times on what was fitted"
 
 
 def _gave_up(fallback: Fallback) -> str:
-    were = "was" if len(fallback.dropped) == 1 else "were"
+    were, them = ("was", "it") if len(fallback.dropped) == 1 else ("were", "them")
     return (
         f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the "
-        f"RMSE was {fallback.selected:.3g} with it and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
+        f"RMSE was {fallback.selected:.3g} with {them} and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
     )
 
 
@@ -174,30 +189,31 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     """What a user must know before believing the names."""
     found, final, after, floor = outcome.found, outcome.found.final, outcome.after, outcome.evidence.floor
     records = found.full.stack.records
-    said = list(found.full.stack.model.advice(records)) if not final.names & {*registry.OFFSETS} else []
+    said = list(advice_with(found.full.stack.model, final.names, records))
     if found.given_up:
         said.insert(0, _gave_up(found.given_up))
     if not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
-    if found.follows and (outcome.doubted or outcome.doubt.agreement):
+    if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
         said.append(
-            f"The final system still leaves {_times(outcome)} the noise: the model's own law does not follow these data"
+            f"The final system still leaves {_times(outcome)}: the model's own law does not follow these data"
             f"{', and what is named may stand in for that' if outcome.doubted else ''}."
         )
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
     if outcome.left.slow:
         said.append(
-            f"What is left is {after.fitted.rmse / floor:.2g} times the noise from sample to sample and is correlated, "
-            "but depends on nothing that was measured here, and no term describes it: slow noise, or a cause beside "
-            "the input that these data do not show."
+            f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and is "
+            "correlated, but depends on nothing that was measured here, and no term describes it: slow noise, or a "
+            "cause beside the input that these data do not show."
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")
+    at_edges: dict[str, dict[str, float]] = {}
     for name in final.at_bound:
-        effect = name.rpartition(".")[0]
-        place = f"{name} lies at the edge of its box ({final.values[name]:.4g})"
-        said.append(f"{place}: {effect} may stand in for something else." if effect else f"{place}.")
+        at_edges.setdefault(name.rpartition(".")[0], {})[name] = final.values[name]
+    for effect, values in at_edges.items():
+        said.append(f"{edges_told(values)}{f': {effect} may stand in for something else' if effect else ''}.")
     if outcome.alone and after.held_out:
         said.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -220,7 +220,11 @@ class Fitter:
             values_of(problem, point),
             errors(problem, points)[:, 0],
             left_out_errors(problem, point, self.blocks),
-            tuple(p.name for p, x in zip(problem.space.parameters, point, strict=True) if _at_bound(p, x)),
+            tuple(
+                p.name
+                for p, x in zip(problem.space.parameters, point, strict=True)
+                if _at_bound(replace(p, null=0.0) if p.name in problem.system.model.linear else p, x)
+            ),
         )
 
 

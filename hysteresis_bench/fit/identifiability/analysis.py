@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.fit.identifiability.combinations import Blindness, Combination, blind_groups, listed
+from hysteresis_bench.fit.identifiability.combinations import MOST, Blindness, Combination, blind_groups, listed
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.kernels import levenberg_marquardt
 
@@ -75,7 +75,7 @@ class Identifiability:
         for direction in range(self.determined, self.rank):
             weights = np.abs(self.directions[:, direction])
             moved = [name for name, weight in zip(self.names, weights, strict=True) if weight > 0.3 * weights.max()]
-            sentences.append(f"Noise hides how {listed(moved)} act{'s' if len(moved) == 1 else ' together'}.")
+            sentences.append(f"Noise hides how {listed(moved, MOST)} act{'s' if len(moved) == 1 else ' together'}.")
         for i, j in np.argwhere(np.triu(np.abs(np.nan_to_num(self.correlation)), 1) > STRONG):
             sentences.append(f"{self.names[i]} and {self.names[j]} are correlated by {self.correlation[i, j]:.4f}.")
         return tuple(sentences)

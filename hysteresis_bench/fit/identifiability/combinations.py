@@ -20,6 +20,9 @@ from hysteresis_bench.arrays import Array
 ZERO = 1e-3
 """An entry this small beside the largest of its vector is none."""
 
+MOST = 8
+"""Parameters, or combinations of them, that a sentence tells; of more it counts the others."""
+
 
 @dataclass(frozen=True)
 class Combination:
@@ -63,10 +66,14 @@ class Blindness:
 
     def __str__(self) -> str:
         if not self.combinations:
-            return f"{listed(self.names)} {'does' if len(self.names) == 1 else 'do'} not act on these data at all."
+            return (
+                f"{listed(self.names, MOST)} {'does' if len(self.names) == 1 else 'do'} not act on these data at all."
+            )
         acting = listed([str(combination) for combination in self.combinations])
-        count = "one" if len(self.fix) == 1 else str(len(self.fix))
-        return f"{listed(self.names)} act only through {acting}: fix {count}, for example {listed(self.fix)}."
+        if len(self.combinations) > MOST:
+            acting = f"{len(self.combinations)} combinations of them"
+        count, fix = "one" if len(self.fix) == 1 else str(len(self.fix)), listed(self.fix, MOST)
+        return f"{listed(self.names, MOST)} act only through {acting}: fix {count}, for example {fix}."
 
 
 def blind_groups(names: Sequence[str], values: Array, lost: Array) -> tuple[Blindness, ...]:
@@ -112,8 +119,10 @@ def tidy(vector: Array) -> Array:
     return _whole(np.where(np.abs(vector) < ZERO * np.abs(vector).max(), 0.0, vector))
 
 
-def listed(words: Sequence[str]) -> str:
-    """a, b and c."""
+def listed(words: Sequence[str], most: int | None = None) -> str:
+    """a, b and c; of more than `most` the others are counted."""
+    if most and len(words) > most:
+        words = [*words[:most], f"{len(words) - most} more"]
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
 
 

@@ -18,6 +18,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
@@ -32,6 +33,17 @@ LOW, HIGH = "output_low", "output_high"
 
 BEYOND = 1.25
 """Times the fastest, or slowest, fitted record, from which an input counts as of another speed."""
+
+
+def further(record: Record, ranges: Sequence[float]) -> str:
+    """How much of a record goes beyond the fitted inputs, a clause; empty where nothing does, or they are not known."""
+    if not ranges:
+        return ""
+    low, high = ranges
+    slack = 0.01 * (high - low)
+    outside = float(np.mean((record.input < low - slack) | (record.input > high + slack)))
+    beyond = f"of its samples lie beyond the fitted inputs ({low:.4g} to {high:.4g})"
+    return f"{record.name}: {outside:.0%} {beyond}" if outside else ""
 
 
 @dataclass(frozen=True)
@@ -66,21 +78,14 @@ class Interval:
 
     def beyond(self, record: Record, ranges: Sequence[float]) -> Iterator[str]:
         """Why it need not hold for a record, a sentence each; ranges : of the fitted inputs, in the record's unit."""
-        if ranges:
-            low, high = ranges
-            slack = 0.01 * (high - low)
-            outside = float(np.mean((record.input < low - slack) | (record.input > high + slack)))
-            if outside:
-                yield (
-                    f"{record.name}: {outside:.0%} of its samples lie beyond the fitted inputs ({low:.4g} to "
-                    f"{high:.4g}); there the interval need not hold."
-                )
+        if outside := further(record, ranges):
+            yield f"{outside}; there the interval need not hold."
         slow, fast = self.speeds
         if record.timed and not slow / BEYOND <= (own := speed(record)) <= fast * BEYOND:
-            times = f"{own / fast:.2g} times the fastest" if own > fast else f"{own / slow:.2g} times the slowest"
+            limit, called = (fast, "fastest") if own > fast else (slow, "slowest")
             yield (
-                f"{record.name}: its input moves at {times} fitted record's speed; where the device knows a rate, the "
-                f"interval need not hold."
+                f"{record.name}: its input moves at {rounded(own / limit)} times the {called} fitted record's speed; "
+                f"where the device knows a rate, the interval need not hold."
             )
 
     def as_dict(self) -> dict[str, Any]:

@@ -14,10 +14,12 @@ from rich.markup import escape
 from rich.table import Table
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.fit.fitting import Fit
 from hysteresis_bench.fit.model_file import write_model
 from hysteresis_bench.report.fit.page import FILE, write_fit_page
 from hysteresis_bench.report.laws.memory import memory_section
+from hysteresis_bench.report.shared.text import listed
 
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
 FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
@@ -32,7 +34,7 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
     write_table(folder / PARAMETERS, fit.parameters)
     write_table(folder / RESPONSES, fit.responses, digits=8)
     summary = {
-        "title": f"{fit.model.model} fitted to {', '.join(file.stem for file in files)}",
+        "title": f"{fit.model.model} fitted to {listed(fit.model.data['fitted'])}",
         "model": fit.model.model,
         "effects": list(fit.model.effects),
         "units": dict(fit.model.units),
@@ -58,7 +60,7 @@ def print_fit(fit: Fit, console: Console) -> None:
         parameters.add_column(heading, justify=side)  # type: ignore[arg-type]
     for row in fit.parameters.itertuples(index=False):
         known = row.standard_error is not None and pd.notna(row.standard_error)
-        error = f"{row.standard_error:.2g}" if known else "not determined"
+        error = rounded(row.standard_error) if known else "not determined"
         mark = "  at bound" if row.at_bound else ""
         parameters.add_row(row.name, f"{row.value:.6g}", error, row.unit + mark, style="yellow" if mark else "")
     console.print(parameters)

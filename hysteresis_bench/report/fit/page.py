@@ -81,15 +81,15 @@ def _grade(records: Sequence[Mapping[str, Any]]) -> str:
         mine = [record for record in records if record["role"] == role]
         if not mine:
             continue
-        worst = max(mine, key=lambda record: record["relative_rms"])
+        worst, furthest = (max(mine, key=lambda record: record[error]) for error in ("relative_rms", "max_error"))
         grade = next(words for edge, words in GRADES if worst["relative_rms"] < edge)
         several = (
             f"the {len(mine)} records {verb}, at worst ({worst['record']})" if len(mine) > 1 else f"the record {verb}"
         )
-        largest = max(record["max_error"] for record in mine)
+        where = "" if furthest is worst else f" (in {furthest['record']})"
         said.append(
             f"On {several} the model leaves a relative RMS of {percent(worst['relative_rms'])} and a largest error of "
-            f"{percent(largest)}. That is {grade}."
+            f"{percent(furthest['max_error'])}{where}. That is {grade}."
         )
     if not any(record["role"] == "held-out" for record in records):
         said.append("No record was held out, so nothing here says how well it predicts.")

@@ -10,6 +10,7 @@ from rich.markup import escape
 from rich.table import Table as Printed
 
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison
 from hysteresis_bench.diagnosis.structure.curves import FILE as CURVES
@@ -81,7 +82,7 @@ def _title(found: Comparison) -> str:
     names, many = listed([found.chosen, *equal]), len(equal) > 0
     if error <= WRONG * found.floor:
         return f"{names} {'follow' if many else 'follows'} these data"
-    return f"{names} {'come' if many else 'comes'} nearest, at {error / found.floor:.2g} times the noise"
+    return f"{names} {'come' if many else 'comes'} nearest, at {rounded(error / found.floor)} times the noise"
 
 
 def print_comparison(found: Comparison, console: Console) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
@@ -66,14 +67,23 @@ def files_beside(known: Mapping[str, str]) -> str:
     return Markup("Files beside this page: {}.").format(Markup(", ").join(links))
 
 
+def _said(text: str) -> str:
+    """A sentence with what stands between backticks, as a terminal shows it, set as code; escaped unless `Markup`."""
+    from markupsafe import Markup, escape
+
+    return Markup(re.sub(r"`([^`]+)`", r"<code>\1</code>", str(escape(text))))
+
+
 @cache
 def _environment() -> Any:
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
-    return Environment(
+    environment = Environment(
         loader=PackageLoader(PACKAGE),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["said"] = _said
+    return environment

@@ -27,4 +27,6 @@ def part(model: Any, p: Mapping[str, float], timed: bool) -> Part:
     stage = (p["c_over_m"], p["k_over_m"] if timed else float("inf"), p["b"] / p["k_over_m"])
     if min(stage) <= 0.0:
         raise ValueError("its linear stage is not stable")
-    return replace(first, constants=(*first.constants, *stage), state=first.state + STATE)
+    constants, state = (*first.constants, *stage), first.state + STATE
+    dynamics = "the linear stage of hammerstein" if timed else ""
+    return replace(first, constants=constants, state=state, not_undone=dynamics)

@@ -70,6 +70,14 @@ def test_laws_without_memory_need_no_hysteresis(law: Callable, inputs: list[Arra
     assert not memory(records(law, inputs, noise)).needed
 
 
+@pytest.mark.parametrize(("unit", "told"), [("s", "0.02 s ago"), ("ms", "20 ms ago")])
+def test_the_best_law_without_memory_is_told_in_the_unit_of_time(unit: str, told: str) -> None:
+    delayed = records(lambda u: np.interp(TIME - 0.02, TIME, np.tanh(u / 3)), [SWEEP], 0.0)
+    scale = 1000.0 if unit == "ms" else 1.0
+    in_unit = [replace(one, time=scale * one.time, units={**one.units, "time": unit}) for one in delayed]
+    assert f"(curve of the input {told})" in memory(in_unit).words
+
+
 @pytest.mark.parametrize("noise", [0.0, 0.01])
 @pytest.mark.parametrize("inputs", [[SINE], [NESTED], [SWEEP, SINE]], ids=["one amplitude", "nested", "sweep"])
 def test_loops_need_hysteresis(inputs: list[Array], noise: float) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -79,6 +80,9 @@ def test_a_line_is_placed_and_compared_with_the_drive() -> None:
     by_name = {t.name: t for t in told_of([RECORD], [noise + np.sin(2 * np.pi * 15 * TIME)], [UNIT])}
     assert "15 Hz, 3 times the input's frequency" in by_name["spectral-line"].words
     assert by_name["spectral-line"].share == pytest.approx(0.5 / 1.5, abs=0.05)
+    slow = replace(RECORD, time=1000.0 * TIME, units={**RECORD.units, "time": "ms"})
+    by_name = {t.name: t for t in told_of([slow], [noise + np.sin(2 * np.pi * 15 * TIME)], [UNIT])}
+    assert "0.015 cycles a ms, 3 times the input's frequency" in by_name["spectral-line"].words
 
 
 def test_scatter_that_follows_the_input() -> None:

@@ -42,4 +42,4 @@ class LagsAfter(FreeForm):
         return unresolved(records)
 
     def curve(self, p: Any) -> Curve:
-        return step_response(p, "the output")
+        return step_response(p, "output")

@@ -1,0 +1,32 @@
+"""What a law says about the records, with the effects that are around it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from hysteresis_bench import registry
+from hysteresis_bench.contracts import Model
+from hysteresis_bench.signals import Record
+
+
+def advice_with(model: Model, effects: Collection[str], records: Sequence[Record]) -> tuple[str, ...]:
+    """The model's advice on the records; where an effect has the offset, as if the records had none.
+
+    effects : by name
+    """
+    if not {*registry.OFFSETS}.isdisjoint(effects):
+        records = [_without_offset(record) for record in records]
+    return model.advice(records)
+
+
+def _without_offset(record: Record) -> Record:
+    """Moved along the output, so that the middle of its loop lies on the line through 0 that spans its ranges."""
+    if record.output is None or not (span := float(np.ptp(record.input[record.scored]))):
+        return record
+    driven, found = record.input[record.scored], record.measured
+    slope = float(np.ptp(found)) / span
+    centre = 0.5 * (found.min() + found.max() - slope * (driven.min() + driven.max()))
+    return replace(record, output=record.output - centre)
