@@ -3,8 +3,7 @@
 |A x - b|² + weight |R x|² is the least [1] for x inside its bounds, R the law's roughness; the weight, and the few
 parameters that are not linear, are those whose law predicts best what was left out of the fit.
 
-[1] P. H. C. Eilers, B. D. Marx, Statistical Science 11 (1996) 89; C. L. Lawson, R. J. Hanson, Solving Least Squares
-    Problems, Prentice-Hall (1974), chapter 23, for the bounds.
+[1] P. H. C. Eilers, B. D. Marx, Statistical Science 11 (1996) 89.
 [2] R. J. Tibshirani, R. Tibshirani, Ann. Appl. Stat. 3 (2009) 822.
 """
 
@@ -20,6 +19,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.laws.left_out import LeftOut
+from hysteresis_bench.diagnosis.laws.pivoting import least_above
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
@@ -148,17 +148,11 @@ class Smoothing:
 
     def _least(self, normal: Array, descent: Array, penalty: Array) -> Array:
         """The least of x normal x / 2 - descent x + x penalty x / 2 with x on its side of 0, (linear,)."""
-        from scipy.optimize import nnls
-
         matrix, right = (normal + penalty) * np.outer(self._signs, self._signs), descent * self._signs
         size = np.sqrt(np.diag(matrix) + np.finfo(float).tiny)
         matrix = matrix / np.outer(size, size) + RIDGE * np.eye(size.size)
-        root = np.linalg.cholesky(matrix)
-        free = np.flatnonzero((self._low < 0.0) & (self._high > 0.0))
-        both = np.concatenate([root.T, -root.T[:, free]], axis=1)
-        found, _ = nnls(both, np.linalg.solve(root, right / size), maxiter=100 * size.size)
-        found[free] -= found[size.size :]
-        least: Array = np.clip(found[: size.size] / size * self._signs, self._low, self._high)
+        found = least_above(matrix, right / size, (self._low < 0.0) & (self._high > 0.0))
+        least: Array = np.clip(found / size * self._signs, self._low, self._high)
         return least
 
     def _values(self, point: Array) -> Array:
