@@ -3,6 +3,9 @@
 A record is left out whole where its input stays in the range of the others, and so is a sixth of a lone one that holds
 cycles of its own. One that goes further says how a law extrapolates, which nobody is promised, and whose large errors
 would drown all others: blocks are left out of it instead.
+
+What is left out of a lone record lies between what is fitted, while what is predicted follows on it, often further. Its
+last part, predicted from what came before, is therefore judged as well.
 """
 
 from __future__ import annotations
@@ -34,6 +37,8 @@ CROSSINGS = 3
 """Of the middle of its own range, from which a part holds a cycle."""
 GROUPS = 8
 """Folds of whole parts at most."""
+LAST = 3
+"""What part of a lone record that is predicted from what came before, like that which is held out of one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +84,19 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     small = [k for k in whole if high[k] - low[k] < SMALLER * span]
     telling = len(records if len(records) > 1 else small) >= FEWEST and whole.size >= FEWEST
     return LeftOut(Blocks(block, dense.ravel(), present.size), telling)
+
+
+def last_part(records: Sequence[Record]) -> Array:
+    """Which scored samples follow on those that they are to be predicted from, (scored samples,): none of several
+    records, which are judged whole."""
+    size = sum(record.measured.size for record in records)
+    found: Array = np.arange(size) >= size - size // LAST
+    return found if len(records) == 1 else np.zeros(size, dtype=bool)
+
+
+def open_way(records: Sequence[Record]) -> bool:
+    """Is it a lone record whose input never closes a loop, so that nothing tells how a law comes back?"""
+    return len(records) == 1 and not _cycles(records[0].input[records[0].scored])
 
 
 def _cycles(u: Array) -> bool:
