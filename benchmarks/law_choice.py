@@ -55,6 +55,10 @@ def decaying(phase: Array) -> Array:
     return sine(phase) * np.linspace(1.0, 0.15, phase.size)
 
 
+def steep(phase: Array) -> Array:
+    return sine(phase) * np.geomspace(0.03, 1.0, phase.size)
+
+
 def once(phase: Array) -> Array:
     return 0.5 - 0.5 * np.cos(2.0 * np.pi * phase)
 
@@ -69,6 +73,7 @@ DRIVES: Mapping[str, Sequence[Run]] = {
     "one amplitude": ((1.0, 2.25, sine, False), (0.4, 2.25, sine, True)),
     "decaying": ((0.9, 8.0, decaying, False), (1.0, 2.25, sine, True)),
     "growing": ((1.0, 9.0, growing, False),),
+    "steep": ((1.0, 9.0, steep, False),),
     "once": ((1.0, 1.0, once, False),),
     "once and more": ((1.0, 1.6, once, False),),
     "minor loops": ((1.0, 6.0, minor_loops, False),),

@@ -5,7 +5,7 @@ import pytest
 
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.law import Law
-from hysteresis_bench.diagnosis.laws.smoothing import _unchosen
+from hysteresis_bench.fit.smooth.smoothing import _unchosen
 from hysteresis_bench.fit.unseen.blocks import blocked
 
 PLAIN = 10.0

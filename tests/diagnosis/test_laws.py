@@ -13,9 +13,9 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, OPEN
-from hysteresis_bench.diagnosis.laws.left_out import left_out
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.signals import Dataset, Record
 
 TIME = np.linspace(0.0, 2.0, 900)

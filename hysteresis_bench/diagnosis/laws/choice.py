@@ -11,7 +11,9 @@ within 1.2 times, the mean was 1.18 and the worst 2.25.
 Of a lone record, what is left out lies between what is fitted, which favours laws that run away behind its end. Its
 last third, predicted from what came before, counts as much: of 36 choices on records that grow, that close one loop or
 none (drives growing, once, once and more), 67 % came within 1.2 times the least error in place of 53 %, and the
-geometric mean was 1.45 in place of 1.94 times; 3 in place of 6 were worse than the polynomial.
+geometric mean was 1.45 in place of 1.94 times; 3 in place of 6 were worse than the polynomial. On 13 whose amplitude
+grows thirtyfold (drive steep) 7 in place of 6 came within 1.2 times, and the geometric mean was 1.47 in place of 1.56;
+where the last third counted however much further it went, 2.25.
 
 [1] H. Akaike, Ann. Inst. Stat. Math. 21 (1969) 243.
 """

@@ -21,13 +21,13 @@ from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_er
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, Laws, both
-from hysteresis_bench.diagnosis.laws.left_out import last_part, left_out, open_way
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.fit.unseen.whole import last_part, left_out, open_way
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
 

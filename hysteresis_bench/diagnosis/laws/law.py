@@ -14,15 +14,15 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.diagnosis.laws.left_out import last_part, left_out
-from hysteresis_bench.diagnosis.laws.smoothing import Rough, Smoothing
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
+from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Dataset, Record
 
 SEARCHES, ALIKE = 4, 1e-3

@@ -18,11 +18,12 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.laws.left_out import LeftOut
-from hysteresis_bench.diagnosis.laws.pivoting import least_above
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.smooth.pivoting import least_above
 from hysteresis_bench.fit.unseen.blocks import Blocks
+from hysteresis_bench.fit.unseen.whole import LeftOut
 
+SOLVED = "Solved, not searched: the least squares of a law as smooth as predicts best what was left out of the fit."
 SCREENED, STEPS = 4, 15
 """Points of the parameters that are not linear, and steps downhill from the best of them, for each dimension."""
 LIGHTEST, HEAVIEST = -6.0, 3.0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.optimize import nnls
 
-from hysteresis_bench.diagnosis.laws.pivoting import least_above
+from hysteresis_bench.fit.smooth.pivoting import least_above
 
 
 @pytest.mark.parametrize("seed", range(8))
