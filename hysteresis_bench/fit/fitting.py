@@ -22,7 +22,7 @@ from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges
-from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
+from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
 from hysteresis_bench.fit.least_squares import at_bound, not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
@@ -146,21 +146,22 @@ def fit_records(
     best = _searched(system, space, seen, options)
     problem, values = best.problem, best.values
     options.on_step(Step("what the data determine"))
+    weights = system.linear if _smooth(system, options) else ()
     try:
-        analysis = analyse(problem, values)
+        analysis, errors = analyse_others(problem, values, weights)
     except ValueError as error:
         raise UserError("fit", f"{error}.") from None
     fitted = fitted_model(
         problem,
         values,
-        analysis.standard_errors,
+        errors,
         dataset=best.dataset,
         model=model,
         settings=settings,
         preparation=replace(preparation, settle=best.repeats),
     )
     parameters = _parameter_table(problem, fitted)
-    agrees, agreement = (True, SOLVED) if _smooth(system, options) else agreement_of(problem, best.found, best.losses)
+    agrees, agreement = (True, SOLVED) if weights else agreement_of(problem, best.found, best.losses)
     responses = simulated(system, best.dataset.records, values)
     return Fit(
         fitted,
@@ -173,7 +174,7 @@ def fit_records(
         (
             *system.model.advice(seen.fitted),
             *not_closed(best.gap, best.repeats),
-            *at_edges(parameters, system.linear),
+            *at_edges(parameters[~parameters["name"].isin(weights)], system.linear),
             *analysis.sentences(),
         ),
         (*dataset.notes, *_notes(problem, options, best.repeats)),
@@ -222,8 +223,7 @@ def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple
     parameters: list[Parameter] = []
     for parameter in boxes:
         lower, upper = bounds.get(parameter.name, (parameter.lower, parameter.upper))
-        scaling = "linear" if lower <= 0 else parameter.scaling
-        parameters.append(parameter.within(lower, upper, scaling))
+        parameters.append(parameter.within(lower, upper, "linear" if lower <= 0 else parameter.scaling))
         faults += [f"bounds {fault}" for fault in parameters[-1].faults()]
     if faults:
         raise UserError("fit", faults)
@@ -274,7 +274,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
 
 
 def _smooth(system: System, options: FitOptions) -> bool:
-    """Is it a law that is solved for, unless another optimizer than the usual one was asked for?"""
+    """Is it solved for? Not where another optimizer than the usual one was asked for."""
     return isinstance(system.model, Rough) and options.optimizer == registry.SEARCH
 
 

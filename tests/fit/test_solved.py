@@ -26,3 +26,7 @@ def test_a_smooth_density_is_solved_for_and_predicts_what_is_held_out():
     assert found.notes[0].startswith(SOLVED)
     errors = found.records.set_index("record")["rmse"]
     assert errors["three"] < 0.02 * np.ptp(records[2].output)
+    assert not [one for one in found.warnings if one.startswith("w")]
+    weights = found.parameters[found.parameters["name"].str.match(r"w\d")]
+    assert weights["standard_error"].isna().all()
+    assert np.isfinite(found.parameters.set_index("name").loc["radius", "standard_error"])
