@@ -294,6 +294,7 @@ DEVICES = (
         _in("boucwen-benchmark", "train_multisine"),
         ("s", "N", "m"),
         laws=("oscillator", "hammerstein"),
+        asked=8.5e-6,
     ),
 )
 

@@ -19,7 +19,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, sense, sided, steepness
+from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, steepness
 
 STRONGEST = 5.0
 """Largest forces, in ranges of the output."""
@@ -30,9 +30,8 @@ class SelfCentring(Model):
     """Self-centring: a flag-shaped loop, as of a rocking wall that is held down by tendons beside parts that yield.
 
     F = up max(w, 0) + down min(w, 0) + F_r e(w / u_r) + F_y z, w = u - centre, e(x) = x / (1 + |x|^m)^(1/m) [1, 2],
-    dz/du = |1 - z sgn(u')|^i / u_y [3]. Rate-independent; linear in both slopes, F_r and F_y. With F_y >= 0 the loop
-    runs clockwise, force over displacement, with F_y <= 0 anticlockwise; the box takes the side on which the records'
-    loops run.
+    dz/du = |1 - z sgn(u')|^i / u_y [3]. Rate-independent, passive, linear in both slopes, F_r and F_y; its loop runs
+    clockwise, force over displacement.
 
     Ours: slopes of their own on either side, and a rounded yielding. z = 0 at the first sample. The constant is the
     effect bias, or record-offset.
@@ -51,6 +50,7 @@ class SelfCentring(Model):
     )
     linear = ("up", "down", "F_r", "F_y")
     properties = ("rate-independent",)
+    senses = (-1,)
     example = Example(
         4.0,
         {
@@ -79,8 +79,7 @@ class SelfCentring(Model):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Displacements of the bend and of yielding from a thousandth of the span of the input to all of it, the
-        centre in its middle fifth; forces up to five times the range of the output, of what yields on the side of the
-        loops' sense, on both where the data do not say."""
+        centre in its middle fifth; forces up to five times the range of the output."""
         boxes = {q.name: q for q in self.parameters}
         span, most, forces = input_span(records), STEEPEST * steepness(records), STRONGEST * output_span(records)
         low = min(float(np.min(record.input)) for record in records)
@@ -93,7 +92,7 @@ class SelfCentring(Model):
             "up": boxes["up"].within(-most, most),
             "down": boxes["down"].within(-most, most),
             "F_r": boxes["F_r"].within(-forces, forces),
-            "F_y": sided(boxes["F_y"], forces, -sense(records)),
+            "F_y": boxes["F_y"].within(0.0, forces),
         }
         return tuple(inside.get(name, box) for name, box in boxes.items())
 
