@@ -55,6 +55,14 @@ def decaying(phase: Array) -> Array:
     return sine(phase) * np.linspace(1.0, 0.15, phase.size)
 
 
+def steep(phase: Array) -> Array:
+    return sine(phase) * np.geomspace(0.03, 1.0, phase.size)
+
+
+def once(phase: Array) -> Array:
+    return 0.5 - 0.5 * np.cos(2.0 * np.pi * phase)
+
+
 Run = tuple[float, float, Callable[[Array], Array], bool]
 DRIVES: Mapping[str, Sequence[Run]] = {
     "two amplitudes": ((0.1, 2.25, sine, False), (1.0, 2.25, sine, False), (0.2, 2.25, sine, True)),
@@ -65,6 +73,9 @@ DRIVES: Mapping[str, Sequence[Run]] = {
     "one amplitude": ((1.0, 2.25, sine, False), (0.4, 2.25, sine, True)),
     "decaying": ((0.9, 8.0, decaying, False), (1.0, 2.25, sine, True)),
     "growing": ((1.0, 9.0, growing, False),),
+    "steep": ((1.0, 9.0, steep, False),),
+    "once": ((1.0, 1.0, once, False),),
+    "once and more": ((1.0, 1.6, once, False),),
     "minor loops": ((1.0, 6.0, minor_loops, False),),
     "several shapes": (
         (1.0, 3.0, minor_loops, False),
@@ -75,8 +86,8 @@ DRIVES: Mapping[str, Sequence[Run]] = {
     ),
 }
 """Amplitude, as a share of the law's own, cycles, shape, and whether it is held out: the last third, where none is."""
-SAMPLES = 50
-"""A cycle."""
+SAMPLES, FEWEST = 50, 250
+"""A cycle, and of a lone record."""
 
 
 def response(made: str, rng: np.random.Generator) -> tuple[Callable[[Array, Array], Array], float]:
@@ -109,7 +120,8 @@ def case(made: str, drive: str, seed: int) -> tuple[Dataset, float]:
     rng = np.random.default_rng([seed, MADE.index(made), [*DRIVES].index(drive)])
     noise, (respond, amplitude), records = float(rng.choice(NOISES)), response(made, rng), []
     for number, (share, cycles, shape, _) in enumerate(DRIVES[drive]):
-        time = np.linspace(0.0, cycles, round(SAMPLES * cycles))
+        fewest = FEWEST if len(DRIVES[drive]) == 1 else 0
+        time = np.linspace(0.0, cycles, max(round(SAMPLES * cycles), fewest))
         drawn = share * rng.uniform(0.85, 1.0) * shape(time)
         records.append(Record(time, amplitude * drawn, respond(time, drawn), f"run {number}"))
     held_out = tuple(record.name for record, run in zip(records, DRIVES[drive], strict=True) if run[3])

@@ -23,25 +23,27 @@ from types import ModuleType
 import numpy as np
 from rich.console import Console
 
-import hysteresis_bench.diagnosis as package
+import hysteresis_bench.diagnosis
+import hysteresis_bench.fit
 from hysteresis_bench import DiagnosisOptions, diagnose, registry
 from hysteresis_bench.commands.data.journal import Journal
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.problems import measure
 
-HOME = package.__name__
+HOME = hysteresis_bench.__name__
+ROOMS = (hysteresis_bench.diagnosis, hysteresis_bench.fit)
 THRESHOLDS = (
-    ("search.selection", "LEVEL", 0.0),
-    ("search.selection", "MATTERS", 1.0),
-    ("search.selection", "SHARE", 0.0),
-    ("search.selection", "NAMED", 0.0),
-    ("search.selection", "CLOSE", 0.0),
-    ("search.selection", "ALIKE", 1.0),
-    ("search.selection", "MISFIT", 1.0),
-    ("hypotheses.cross_validation", "CLEAR", 0.0),
-    ("evidence.noise_floor", "WRONG", 1.0),
-    ("evidence.memory", "MATERIAL", 0.0),
-    ("findings.remainder", "REMAINS", 1.0),
+    ("diagnosis.search.selection", "LEVEL", 0.0),
+    ("diagnosis.search.selection", "MATTERS", 1.0),
+    ("diagnosis.search.selection", "SHARE", 0.0),
+    ("diagnosis.search.selection", "NAMED", 0.0),
+    ("diagnosis.search.selection", "CLOSE", 0.0),
+    ("diagnosis.search.selection", "ALIKE", 1.0),
+    ("diagnosis.search.selection", "MISFIT", 1.0),
+    ("fit.unseen.advantage", "CLEAR", 0.0),
+    ("diagnosis.evidence.noise_floor", "WRONG", 1.0),
+    ("diagnosis.evidence.memory", "MATERIAL", 0.0),
+    ("diagnosis.findings.remainder", "REMAINS", 1.0),
 )
 """Module, name, and the value from which it counts."""
 MAKERS = ("bouc-wen", "jiles-atherton", "prandtl-ishlinskii-modified", "dahl", "ferroelectric")
@@ -56,7 +58,11 @@ def main() -> None:
     parser.add_argument("--cases", type=int, default=18)
     parser.add_argument("--seed", type=int, default=0)
     told = parser.parse_args()
-    modules = [importlib.import_module(one.name) for one in pkgutil.walk_packages(package.__path__, f"{HOME}.")]
+    modules = [
+        importlib.import_module(one.name)
+        for room in ROOMS
+        for one in pkgutil.walk_packages(room.__path__, f"{room.__name__}.")
+    ]
     cases = list(made(told.cases, told.seed))
     console = Console(width=100, highlight=False)
     with tempfile.TemporaryDirectory() as folder:

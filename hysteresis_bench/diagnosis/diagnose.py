@@ -16,7 +16,6 @@ from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
-from hysteresis_bench.diagnosis.laws.smoothing import Rough
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
@@ -24,6 +23,7 @@ from hysteresis_bench.diagnosis.search.search import search
 from hysteresis_bench.diagnosis.search.selection import NAMED
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.identifiability.combinations import listed
+from hysteresis_bench.fit.smooth.smoothing import Rough
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset

@@ -41,6 +41,15 @@ def accuracy(system: System, records: Sequence[Record], values: Array) -> Accura
     return Accuracy(rmse, rmse / scale, largest / scale)
 
 
+def error_table(system: System, values: Array, dataset: Dataset) -> pd.DataFrame:
+    """record, role (fitted or held-out), and the accuracy of each;  values : (dimension,), in units."""
+    rows = []
+    for record in dataset.records:
+        role = "held-out" if record.name in dataset.held_out_names else "fitted"
+        rows.append({"record": record.name, "role": role, **accuracy(system, [record], values).as_dict()})
+    return pd.DataFrame(rows)
+
+
 def simulated(system: System, records: Sequence[Record], values: Array) -> list[Array]:
     """The response to every record, (scored samples,) each; values : (dimension,), in units."""
     return [system.respond(record, values.reshape(-1, 1))[record.scored, 0] for record in records]

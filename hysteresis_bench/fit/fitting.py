@@ -17,13 +17,13 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Optimizer
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.errors import UserError, nearest
-from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
+from hysteresis_bench.fit.accuracy import error_table, response_table, simulated
 from hysteresis_bench.fit.checks.advised import advice_with
 from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
-from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse
+from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
 from hysteresis_bench.fit.least_squares import not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
@@ -32,6 +32,8 @@ from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
+from hysteresis_bench.fit.smooth.smoothing import SOLVED, Rough, Smoothing
+from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.progress import Kept, OnStep, Step, quiet
@@ -145,25 +147,26 @@ def fit_records(
     best = _searched(system, space, seen, options)
     problem, values = best.problem, best.values
     options.on_step(Step("what the data determine"))
+    weights = system.linear if _smooth(system, options) else ()
     try:
-        analysis = analyse(problem, values)
+        analysis, errors = analyse_others(problem, values, weights)
     except ValueError as error:
         raise UserError("fit", f"{error}.") from None
     fitted = fitted_model(
         problem,
         values,
-        analysis.standard_errors,
+        errors,
         dataset=best.dataset,
         model=model,
         settings=settings,
         preparation=replace(preparation, settle=best.repeats),
     )
     parameters = _parameter_table(problem, fitted)
-    agrees, agreement = agreement_of(problem, best.found, best.losses)
+    agrees, agreement = (True, SOLVED) if weights else agreement_of(problem, best.found, best.losses)
     responses = simulated(system, best.dataset.records, values)
     return Fit(
         fitted,
-        _error_table(system, values, best.dataset),
+        error_table(system, values, best.dataset),
         response_table(dataset.map(preparation.skipped), {"simulated": responses}),  # the measured input
         parameters,
         analysis,
@@ -172,7 +175,7 @@ def fit_records(
         (
             *advice_with(system.model, effects, seen.fitted),
             *not_closed(best.gap, best.repeats),
-            *at_edges(parameters),
+            *at_edges(parameters[~parameters["name"].isin(weights)]),
             *analysis.sentences(),
         ),
         (*dataset.notes, *_notes(problem, options, best.repeats)),
@@ -221,8 +224,7 @@ def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple
     parameters: list[Parameter] = []
     for parameter in boxes:
         lower, upper = bounds.get(parameter.name, (parameter.lower, parameter.upper))
-        scaling = "linear" if lower <= 0 else parameter.scaling
-        parameters.append(parameter.within(lower, upper, scaling))
+        parameters.append(parameter.within(lower, upper, "linear" if lower <= 0 else parameter.scaling))
         faults += [f"bounds {fault}" for fault in parameters[-1].faults()]
     if faults:
         raise UserError("fit", faults)
@@ -241,14 +243,15 @@ def _best(problem: Problem, *, optimizer: Optimizer, options: FitOptions, run: i
 
 
 def _searched(system: System, space: Space, dataset: Dataset, options: FitOptions) -> _Searched:
-    """Both searches, each polished; with `settle` the loops' passes are doubled until the fitted model closes them."""
+    """Both searches, each polished, or the smooth law; with `settle` loops are passed until the model closes them."""
+    smooth = _smooth(system, options)
     optimizer = registry.build("optimizers", options.optimizer, options.optimizer_settings)
     repeats = FIRST_REPEATS
     while True:
         ready = dataset.map(lambda record, n=repeats: record.settled(n)) if options.settle else dataset
         problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
-        found = []
-        for run in (0, 1):
+        found = [Smoothing(problem).searched(left_out(problem.records)).values] if smooth else []
+        for run in () if smooth else (0, 1):
             asked = ("search", run, repeats)
             if options.kept is not None and (values := options.kept.get(asked)) is not None:
                 found.append(values)
@@ -260,7 +263,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
             if options.kept is not None:
                 options.kept[asked] = found[-1]
         options.on_step(Step("to the nearest optimum"))
-        polished = polish(problem, np.column_stack(found))
+        polished = np.column_stack(found) if smooth else polish(problem, np.column_stack(found))
         losses = problem.losses(space.to_unit(polished))
         searched = _Searched(problem, ready, tuple(polished.T), tuple(losses.tolist()), repeats, 0.0)
         if not options.settle:
@@ -271,30 +274,24 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         repeats *= 2
 
 
+def _smooth(system: System, options: FitOptions) -> bool:
+    """Is it solved for? Not where another optimizer than the usual one was asked for."""
+    return isinstance(system.model, Rough) and options.optimizer == registry.SEARCH
+
+
 def _notes(problem: Problem, options: FitOptions, repeats: int) -> tuple[str, ...]:
     box = "; ".join(f"{p.name} {p.lower:.3g} to {p.upper:.3g} ({p.scaling})" for p in problem.space.parameters)
     bare = " The first one began at the model without its effects as well." if problem.system.effects else ""
     settled = f" Every loop was passed {repeats} times before it was scored." if repeats else ""
+    runs = f"{options.optimizer} from other starts, {options.budget} evaluations each at most, seed {options.seed}"
+    how = f"Two searches by {runs}, each finished by a local least-squares polish.{bare}"
     return (
-        f"Two searches by {options.optimizer} from other starts, {options.budget} evaluations each at most, "
-        f"seed {options.seed}, each finished by a local least-squares polish.{bare}{settled}",
+        f"{SOLVED if _smooth(problem.system, options) else how}{settled}",
         f"Search box: {box}.",
         "Standard errors come from the Jacobian at the optimum and grow with the residuals' autocorrelation.",
     )
 
 
-def _error_table(system: System, values: Array, dataset: Dataset) -> pd.DataFrame:
-    rows = []
-    for record in dataset.records:
-        role = "held-out" if record.name in dataset.held_out_names else "fitted"
-        rows.append({"record": record.name, "role": role, **accuracy(system, [record], values).as_dict()})
-    return pd.DataFrame(rows)
-
-
 def _parameter_table(problem: Problem, fitted: FittedModel) -> pd.DataFrame:
-    edges = edges_reached(problem, fitted.values)
-    rows = [
-        {"name": name, **asdict(estimate), "at_bound": bool(edge)}
-        for (name, estimate), edge in zip(fitted.parameters.items(), edges, strict=True)
-    ]
-    return pd.DataFrame(rows)
+    table = pd.DataFrame([{"name": name, **asdict(estimate)} for name, estimate in fitted.parameters.items()])
+    return table.assign(at_bound=edges_reached(problem, fitted.values))

@@ -5,10 +5,10 @@ import pytest
 
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.law import Law
-from hysteresis_bench.diagnosis.laws.smoothing import _unchosen
+from hysteresis_bench.fit.smooth.smoothing import _unchosen
 from hysteresis_bench.fit.unseen.blocks import blocked
 
-PLAIN = np.full(400, 10.0)
+PLAIN = 10.0
 
 
 def law(name: str, error: float, parameters: int) -> Law:

@@ -12,10 +12,10 @@ from hysteresis_bench.cli import main
 from hysteresis_bench.compose import System
 from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.comparison import BASELINE
-from hysteresis_bench.diagnosis.laws.left_out import left_out
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE, OPEN
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.signals import Dataset, Record
 
 TIME = np.linspace(0.0, 2.0, 900)
@@ -167,3 +167,10 @@ def test_a_record_of_one_sample_is_told_and_one_of_three_is_fitted():
             alone(Dataset((whole, whole.take(slice(0, 1), "short"))), *(("bouc-wen",) if alone is fit else ()))
     found = fit(Dataset((whole, whole.take(slice(0, 3), "short"))), "bouc-wen")
     assert set(found.records["record"]) >= {"run 0", "short"}
+
+
+def test_where_no_loop_closes_no_law_is_believed_without_a_word():
+    there = 0.5 - 0.5 * np.cos(np.pi * TIME)
+    half, whole = (Record(TIME, u, BOUC_WEN(u), name=name) for u, name in ((there, "half"), (drive(1.0, 2.0), "whole")))
+    assert OPEN in compare(Dataset((half,)), ("dahl",), options=ONE).words
+    assert OPEN not in compare(Dataset((whole,)), ("dahl",), options=ONE).words

@@ -7,11 +7,11 @@ from scipy.optimize import least_squares
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import advantage
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, not_overlooked, point_of, polish, split, values_of
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.advantage import advantage
 from hysteresis_bench.fit.unseen.left_out import FOLDS, cut, left_out_errors
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record

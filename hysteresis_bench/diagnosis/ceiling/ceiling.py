@@ -20,10 +20,10 @@ from hysteresis_bench.diagnosis.ceiling.bank import Bank
 from hysteresis_bench.diagnosis.ceiling.folds import folds_of
 from hysteresis_bench.diagnosis.ceiling.nested import Nested
 from hysteresis_bench.diagnosis.evidence.noise import Noise
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.least_squares import point_of
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 from hysteresis_bench.fit.unseen.left_out import errors_without
 
 REMAINS = 1.1

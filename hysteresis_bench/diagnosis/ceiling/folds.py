@@ -13,9 +13,9 @@ from functools import cached_property
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.laws.left_out import left_out
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import cut
+from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.signals import Record
 
 

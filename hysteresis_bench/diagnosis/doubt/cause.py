@@ -17,10 +17,10 @@ import numpy as np
 
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 from hysteresis_bench.diagnosis.families.finding import forms_of
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import MATTERS, NAMED
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 from hysteresis_bench.signals import Record
 
 PURSUED = 3

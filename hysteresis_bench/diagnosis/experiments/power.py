@@ -31,10 +31,10 @@ from statistics import NormalDist
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import ALIKE
 from hysteresis_bench.fit.least_squares import errors, jacobian
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.advantage import CLEAR
 from hysteresis_bench.signals import Record
 
 BOX = 12.0

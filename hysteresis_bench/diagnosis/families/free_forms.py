@@ -7,9 +7,9 @@ So a free form takes the place of a formula of its family, of one of another fam
 
 from __future__ import annotations
 
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, MOST, NAMED, Selection
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 
 def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:

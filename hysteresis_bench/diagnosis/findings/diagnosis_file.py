@@ -26,11 +26,11 @@ from hysteresis_bench.diagnosis.findings.candidates import Candidate
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.diagnosis.search.selection import LEVEL
 from hysteresis_bench.diagnosis.structure.curves import write_curves
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import write_model
+from hysteresis_bench.fit.unseen.advantage import CLEAR
 from hysteresis_bench.registry import DESCRIPTION
 
 SCHEMA = 1

@@ -47,6 +47,14 @@ def polynomial(records: Sequence[Record], counts: Array | None = None) -> Polyno
     return Polynomial(solution, empty.centre, empty.half_span)
 
 
+def baseline_ahead(records: Sequence[Record], last: Array) -> Array:
+    """Errors of the samples of a last part, by the polynomial of those before it;  last : (scored samples,)"""
+    if not last.any():
+        return np.empty(0)
+    plain = polynomial(records, ~last)
+    return np.concatenate([plain.errors(record) for record in records])[last]
+
+
 def baseline_errors(records: Sequence[Record], blocks: Blocks) -> Array:
     """Errors (scored samples,) of every sample by the polynomial of those that are not left out with it."""
     found = np.empty(blocks.fold.size)

@@ -8,6 +8,13 @@ observations, as neighbouring samples tell the same. Of 122 choices on made data
 with none; the mean was 1.18, 1.28, 1.25 and 1.32 times. The rule was found on them; of 21 fresh choices it brought 15
 within 1.2 times, the mean was 1.18 and the worst 2.25.
 
+Of a lone record, what is left out lies between what is fitted, which favours laws that run away behind its end. Its
+last third, predicted from what came before, counts as much: of 36 choices on records that grow, that close one loop or
+none (drives growing, once, once and more), 67 % came within 1.2 times the least error in place of 53 %, and the
+geometric mean was 1.45 in place of 1.94 times; 3 in place of 6 were worse than the polynomial. On 13 whose amplitude
+grows thirtyfold (drive steep) 7 in place of 6 came within 1.2 times, and the geometric mean was 1.47 in place of 1.56;
+where the last third counted however much further it went, 2.25.
+
 [1] H. Akaike, Ann. Inst. Stat. Math. 21 (1969) 243.
 """
 
@@ -15,21 +22,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
-from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
 
-def choose(laws: Sequence[Law], without: Array, blocks: Blocks) -> tuple[str, str]:
+def choose(laws: Sequence[Law], plain: float, blocks: Blocks) -> tuple[str, str]:
     """The law's name, and a sentence; the name is "" where no law beats the polynomial.
 
-    laws : the best first;  without : errors of the polynomial without memory, as `Law.unseen`
+    laws : the best first;  plain : RMSE of the polynomial without memory, as `Law.rmse`
     blocks : what was left out together
     """
     fitted = [law for law in laws if law.unseen.size]
-    plain = float(np.sqrt(np.mean(without**2)))
     if not fitted or fitted[0].rmse >= plain:
         return "", "No law predicts what it did not see better than a cubic polynomial of the input, without memory."
     count, best = int(blocks.block.max()) + 1, fitted[0]

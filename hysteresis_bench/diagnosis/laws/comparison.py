@@ -17,17 +17,17 @@ from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
-from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
+from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
-from hysteresis_bench.diagnosis.laws.law import Law, Laws
-from hysteresis_bench.diagnosis.laws.left_out import left_out
+from hysteresis_bench.diagnosis.laws.law import Law, Laws, both
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.fit.unseen.whole import last_part, left_out, open_way
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
 
@@ -35,6 +35,10 @@ BASELINE = "cubic polynomial"
 REACHABLE = 2.0
 """Times what branches of the data's own leave on a few like excitations, from where no law is chosen: there one of few
 parameters may be expected to predict better than a richer one with half its error."""
+OPEN = (
+    "The record that was fitted closes no loop: nothing in it tells how a law comes back. Do not believe one beyond "
+    "these samples, and record a whole cycle."
+)
 PASSES = 8
 """Of a closed loop before it is scored, with `settle`. A fit finds out how many its law needs; here all get as many."""
 
@@ -88,15 +92,17 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         fitted = workers.map([("law", name) for name in names if name not in reasons])
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
-    without = baseline_errors(thin.records, out.blocks)
-    chosen, words = choose(laws, without, out.blocks)
+    plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
+    chosen, words = choose(laws, plain, out.blocks)
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
         words += f" {why}" if (why := why_not(chosen, found, left * floor)) else ""
+    if chosen and open_way(thin.records):
+        words += f" {OPEN}"
     if not chosen and found.of("sense").mixed:
         words += f" Of these records {found.of('sense').words}"
-    rows = [*(_row(law) for law in laws), _baseline_row(without, seen)]
+    rows = [*(_row(law) for law in laws), _baseline_row(plain, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
@@ -138,14 +144,14 @@ def _row(law: Law) -> dict[str, object]:
     }
 
 
-def _baseline_row(without: np.ndarray, seen: Dataset) -> dict[str, object]:
+def _baseline_row(unseen: float, seen: Dataset) -> dict[str, object]:
     plain = polynomial(seen.fitted)
     fitted, held = ([plain.errors(record) for record in records] for records in (seen.fitted, seen.held_out))
     return {
         "law": BASELINE,
         "parameters": plain.coefficients.size,
         "fitted": _rms(fitted),
-        "unseen": _rms([without]),
+        "unseen": unseen,
         "held_out": _rms(held) if held else np.nan,
         "seconds": 0.0,
         "reason": "",

@@ -14,14 +14,15 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.diagnosis.laws.left_out import left_out
-from hysteresis_bench.diagnosis.laws.smoothing import Rough, Smoothing
 from hysteresis_bench.fit.accuracy import accuracy
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.unseen.left_out import FURTHER, left_out_errors
+from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing
+from hysteresis_bench.fit.unseen.blocks import Blocks
+from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
+from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Dataset, Record
 
 SEARCHES, ALIKE = 4, 1e-3
@@ -38,6 +39,7 @@ class Law:
     parameters : how many, effectively where they are smooth
     fitted, held_out : RMSE over all samples, unit of the output; NaN where there are none
     seconds : CPU time;  reason : why there is no fit, "" where there is one
+    ahead : errors of a lone record's last part, by a fit to what came before; empty where there are several
     """
 
     model: str
@@ -47,11 +49,12 @@ class Law:
     unseen: Array = field(default_factory=lambda: np.empty(0))
     parameters: int = 0
     seconds: float = 0.0
+    ahead: Array = field(default_factory=lambda: np.empty(0))
 
     @property
     def rmse(self) -> float:
-        """On excitations left out, unit of the output; infinite where there is no fit."""
-        return float(np.sqrt(np.mean(self.unseen**2))) if self.unseen.size else np.inf
+        """On what was left out, unit of the output; infinite where there is no fit."""
+        return both(self.unseen, self.ahead) if self.unseen.size else np.inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,10 +89,12 @@ class Laws:
         count = problem.space.dimension
         if found.rmse >= 0.999 * _spread(self.records):
             return Law(name, "it follows these records no better than a constant.", parameters=count)
-        unseen = left_out_errors(problem, point_of(problem, found.values), left_out(self.records).blocks, FURTHER)
+        point, last = point_of(problem, found.values), last_part(self.records)
+        unseen = left_out_errors(problem, point, left_out(self.records).blocks, FURTHER)
+        ahead = errors_without(problem, point, Blocks(~last, ~last, 1))[last, 0] if last.any() else unseen[last]
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
-        return Law(name, "", *self._errors(system, values), unseen, count, time.process_time() - begun)
+        return Law(name, "", *self._errors(system, values), unseen, count, time.process_time() - begun, ahead)
 
     def _found(self, name: str) -> Hypothesis:
         """The best of searches from different seeds, where they are cheap until two of them agree."""
@@ -108,7 +113,9 @@ class Laws:
         found = Smoothing(problem).searched(left_out(self.records))
         full = self.fitter(name, self.dataset.fitted).stack.problem({registry.RECORD_OFFSET})
         errors = self._errors(full.system, Smoothing(full).refitted(found))
-        return Law(name, "", *errors, found.left_out, round(found.freedom), time.process_time() - begun)
+        last = last_part(self.records)
+        ahead = Smoothing(problem).without(found, last)
+        return Law(name, "", *errors, found.left_out, round(found.freedom), time.process_time() - begun, ahead)
 
     def _errors(self, system: System, values: Array) -> tuple[float, float]:
         """RMSE over all samples of the fitted and of the held-out records; NaN where there are none."""
@@ -126,6 +133,12 @@ class Laws:
         if samples <= 2 * count and not isinstance(system.model, Rough):
             reasons.append(f"{samples} samples are too few for its {count} parameters.")
         return reasons or broken_promises(system, self.records)
+
+
+def both(unseen: Array, ahead: Array) -> float:
+    """RMS of what was left out, the last part of a lone record as much as the parts within it."""
+    squares = [float(np.mean(errors**2)) for errors in (unseen, ahead) if errors.size]
+    return float(np.sqrt(np.mean(squares)))
 
 
 def _spread(records: Sequence[Record]) -> float:

@@ -17,12 +17,12 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.fallback import predicting
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""

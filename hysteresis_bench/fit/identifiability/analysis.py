@@ -10,7 +10,8 @@ of powers, or sums. What is seen has a covariance, from residuals that may be co
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Collection
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.identifiability.combinations import MOST, Blindness, Combination, blind_groups, listed
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.kernels import levenberg_marquardt
+from hysteresis_bench.parameters import Space
 
 STEP = np.finfo(float).eps ** (1 / 3)
 """Central differences, in scaled parameters: where truncation and rounding are alike."""
@@ -125,6 +127,19 @@ def analyse(problem: Problem, values: Array, correlated: bool = True) -> Identif
         effective_samples=problem.samples / _inflation(autocovariance),
         blind=blind_groups(problem.space.names, values, scale[:, None] * lost),
     )
+
+
+def analyse_others(problem: Problem, values: Array, taken: Collection[str]) -> tuple[Identifiability, Array]:
+    """Identifiability of the parameters beside those that are `taken` for known, such as the weights of a smooth
+    density, of which no single one means anything; and standard errors of all, inf of those, (dimension,) in units."""
+    others = np.array([name not in taken for name in problem.space.names])
+    known = {name: float(value) for name, value in zip(problem.space.names, values, strict=True) if name in taken}
+    system = replace(problem.system, fixed={**problem.system.fixed, **known})
+    space = Space(tuple(p for p, other in zip(problem.space.parameters, others, strict=True) if other))
+    found = analyse(Problem(system, problem.records, space, problem.loss), values[others])
+    errors = np.full(values.size, np.inf)
+    errors[others] = found.standard_errors
+    return found, errors
 
 
 @dataclass(frozen=True, eq=False)

@@ -29,6 +29,11 @@ def input_span(records: Sequence[Record]) -> float:
     return max(float(np.ptp(record.input)) for record in records) or 1.0
 
 
+def path(records: Sequence[Record]) -> float:
+    """Longest path of the input in one record, 1 where it never moves."""
+    return max(float(np.sum(np.abs(np.diff(record.input)))) for record in records) or 1.0
+
+
 def output_span(records: Sequence[Record]) -> float:
     """Largest span of the output in one record, 1 where there is none."""
     return max((float(np.ptp(record.measured)) for record in records if record.output is not None), default=0.0) or 1.0

@@ -19,7 +19,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, sense, sided, steepness
+from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, path, sense, sided, steepness
 
 STRONGEST = 5.0
 """Largest hysteresis, in ranges of the output."""
@@ -88,13 +88,13 @@ class BoucWenGeneralized(Model):
         fiftieth of strength and stiffness, and hardening by ten times, over the longest path; forces up to five times
         the range of the output, on the side of the loops' sense, on both where the data do not say."""
         boxes = {q.name: q for q in self.parameters}
-        span, path = input_span(records), _path(records)
+        span, longest = input_span(records), path(records)
         most = STEEPEST * steepness(records)
         inside = {
             "u_y": boxes["u_y"].within(1e-3 * span, span),
-            "delta_nu": boxes["delta_nu"].within(-0.9 / path, 10.0 / path),
-            "delta_eta": boxes["delta_eta"].within(-0.9 / path, 50.0 / path),
-            "p": boxes["p"].within(0.1 / path, 1e3 / path),
+            "delta_nu": boxes["delta_nu"].within(-0.9 / longest, 10.0 / longest),
+            "delta_eta": boxes["delta_eta"].within(-0.9 / longest, 50.0 / longest),
+            "p": boxes["p"].within(0.1 / longest, 1e3 / longest),
             "slope": boxes["slope"].within(-most, most),
             "F_y": sided(boxes["F_y"], STRONGEST * output_span(records), -sense(records)),
         }
@@ -102,8 +102,3 @@ class BoucWenGeneralized(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
-
-
-def _path(records: Sequence[Record]) -> float:
-    """Longest path of the input in one record, 1 where it never moves."""
-    return max(float(np.sum(np.abs(np.diff(record.input)))) for record in records) or 1.0

@@ -67,13 +67,13 @@ class PreisachHats(Model):
     the saturation that it comes from as its first samples. Every play starts in the middle of its dead band.
     """
 
-    parameters = _parameters(8, 16)
+    parameters = _parameters(12, 24)
     linear = tuple(parameter.name for parameter in parameters[3:])
     properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
 
-    plays: int = 8
-    pieces: int = 16
+    plays: int = 12
+    pieces: int = 24
 
     def __post_init__(self) -> None:
         at_least("plays", self.plays, 1, 40)

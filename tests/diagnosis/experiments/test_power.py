@@ -10,9 +10,9 @@ from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.experiments.power import Fitted, Left, told_apart
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.advantage import CLEAR
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record
 

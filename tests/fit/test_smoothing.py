@@ -8,9 +8,9 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.diagnosis.laws.left_out import left_out
-from hysteresis_bench.diagnosis.laws.smoothing import HEAVIEST, LIGHTEST, Smoothing
 from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.smooth.smoothing import HEAVIEST, LIGHTEST, Smoothing
+from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.signals import Record
 from hysteresis_plugins.models.energy_based import EnergyBased
 from hysteresis_plugins.models.preisach_hats import PreisachHats

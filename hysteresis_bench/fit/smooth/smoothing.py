@@ -3,8 +3,7 @@
 |A x - b|² + weight |R x|² is the least [1] for x inside its bounds, R the law's roughness; the weight, and the few
 parameters that are not linear, are those whose law predicts best what was left out of the fit.
 
-[1] P. H. C. Eilers, B. D. Marx, Statistical Science 11 (1996) 89; C. L. Lawson, R. J. Hanson, Solving Least Squares
-    Problems, Prentice-Hall (1974), chapter 23, for the bounds.
+[1] P. H. C. Eilers, B. D. Marx, Statistical Science 11 (1996) 89.
 [2] R. J. Tibshirani, R. Tibshirani, Ann. Appl. Stat. 3 (2009) 822.
 """
 
@@ -19,10 +18,12 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.laws.left_out import LeftOut
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.smooth.pivoting import least_above
 from hysteresis_bench.fit.unseen.blocks import Blocks
+from hysteresis_bench.fit.unseen.whole import LeftOut
 
+SOLVED = "Solved, not searched: the least squares of a law as smooth as predicts best what was left out of the fit."
 SCREENED, STEPS = 4, 15
 """Points of the parameters that are not linear, and steps downhill from the best of them, for each dimension."""
 LIGHTEST, HEAVIEST = -6.0, 3.0
@@ -95,9 +96,17 @@ class Smoothing:
 
     def refitted(self, known: Smoothed) -> Array:
         """Values (dimension,) in units, of the same smoothness, for this problem's records."""
+        return self._solved(self._point(known))[0]
+
+    def without(self, known: Smoothed, out: Array) -> Array:
+        """Errors (left out,) of samples by the law of the same smoothness that counts the others;  out : (samples,)"""
+        if not out.any():
+            return np.empty(0)
+        return self._predicted(self._point(known), Blocks(~out, (~out).astype(int), 1))[out]
+
+    def _point(self, known: Smoothed) -> Array:
         point = self.problem.space.to_unit(known.values[:, None])[self._others, 0]
-        share = (known.weight - LIGHTEST) / (HEAVIEST - LIGHTEST)
-        return self._solved(np.append(point, share))[0]
+        return np.append(point, (known.weight - LIGHTEST) / (HEAVIEST - LIGHTEST))
 
     def _power(self, point: Array) -> float:
         return float(LIGHTEST + point[-1] * (HEAVIEST - LIGHTEST))
@@ -105,11 +114,12 @@ class Smoothing:
     def _predicted(self, point: Array, blocks: Blocks) -> Array:
         columns, target = self._columns(point)
         normal, descent, penalty = columns.T @ columns, columns.T @ target, self._penalty(point, columns)
-        errors = np.empty(target.size)
+        errors, least = np.empty(target.size), np.empty(0)
         for fold in range(blocks.folds):
             out = blocks.fold == fold
             part, aim = columns[out], target[out]
-            errors[out] = aim - part @ self._least(normal - part.T @ part, descent - part.T @ aim, penalty)
+            least = self._least(normal - part.T @ part, descent - part.T @ aim, penalty, least)
+            errors[out] = aim - part @ least
         return errors
 
     def _solved(self, point: Array) -> tuple[Array, float]:
@@ -146,19 +156,15 @@ class Smoothing:
         alike = np.sum(columns[:, np.diag(square) > 0.0] ** 2) / max(np.trace(square), np.finfo(float).tiny)
         return np.asarray(10.0 ** self._power(point) * alike * square)
 
-    def _least(self, normal: Array, descent: Array, penalty: Array) -> Array:
-        """The least of x normal x / 2 - descent x + x penalty x / 2 with x on its side of 0, (linear,)."""
-        from scipy.optimize import nnls
-
+    def _least(self, normal: Array, descent: Array, penalty: Array, near: Array | None = None) -> Array:
+        """The least of x normal x / 2 - descent x + x penalty x / 2 with x on its side of 0, (linear,); near : one of
+        like terms, empty where none is known."""
         matrix, right = (normal + penalty) * np.outer(self._signs, self._signs), descent * self._signs
         size = np.sqrt(np.diag(matrix) + np.finfo(float).tiny)
         matrix = matrix / np.outer(size, size) + RIDGE * np.eye(size.size)
-        root = np.linalg.cholesky(matrix)
-        free = np.flatnonzero((self._low < 0.0) & (self._high > 0.0))
-        both = np.concatenate([root.T, -root.T[:, free]], axis=1)
-        found, _ = nnls(both, np.linalg.solve(root, right / size), maxiter=100 * size.size)
-        found[free] -= found[size.size :]
-        least: Array = np.clip(found[: size.size] / size * self._signs, self._low, self._high)
+        inside = near != 0.0 if near is not None and near.size else np.ones(size.size, dtype=bool)
+        found = least_above(matrix, right / size, (self._low < 0.0) & (self._high > 0.0), inside)
+        least: Array = np.clip(found / size * self._signs, self._low, self._high)
         return least
 
     def _values(self, point: Array) -> Array:

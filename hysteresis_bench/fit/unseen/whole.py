@@ -3,6 +3,9 @@
 A record is left out whole where its input stays in the range of the others, and so is a sixth of a lone one that holds
 cycles of its own. One that goes further says how a law extrapolates, which nobody is promised, and whose large errors
 would drown all others: blocks are left out of it instead.
+
+What is left out of a lone record lies between what is fitted, while what is predicted follows on it, often further. Its
+last part, predicted from what came before, is therefore judged as well, as far as it stays near.
 """
 
 from __future__ import annotations
@@ -13,7 +16,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.hypotheses.cross_validation import CLEAR, advantage
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import cut
 from hysteresis_bench.signals import Record
@@ -30,10 +33,14 @@ BEYOND = 0.05
 """Share of the range of all by which a part may exceed the others and still be said to stay within."""
 SMALLER = 0.8
 """Share of the range of all below which a part has an amplitude of its own."""
+REACH = 1.5
+"""Times the range of the input before it, up to which that part goes: further on it tells how a law extrapolates."""
 CROSSINGS = 3
 """Of the middle of its own range, from which a part holds a cycle."""
 GROUPS = 8
 """Folds of whole parts at most."""
+LAST = 3
+"""What part of a lone record is predicted from what came before, like that which is held out of one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,6 +86,22 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     small = [k for k in whole if high[k] - low[k] < SMALLER * span]
     telling = len(records if len(records) > 1 else small) >= FEWEST and whole.size >= FEWEST
     return LeftOut(Blocks(block, dense.ravel(), present.size), telling)
+
+
+def last_part(records: Sequence[Record]) -> Array:
+    """Which scored samples follow on those that they are to be predicted from, (scored samples,): none of several
+    records, which are judged whole."""
+    u = np.concatenate([record.input[record.scored] for record in records])
+    if len(records) > 1:
+        return np.zeros(u.size, dtype=bool)
+    reached = np.maximum.accumulate(u) - np.minimum.accumulate(u) >= np.ptp(u) / REACH
+    found: Array = np.arange(u.size) >= max(u.size - u.size // LAST, int(np.argmax(reached)))
+    return found
+
+
+def open_way(records: Sequence[Record]) -> bool:
+    """Is it a lone record whose input never closes a loop, so that nothing tells how a law comes back?"""
+    return len(records) == 1 and not _cycles(records[0].input[records[0].scored])
 
 
 def _cycles(u: Array) -> bool:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.laws.left_out import left_out
+from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Record
 
 TIME = np.linspace(0.0, 6.0, 1200)
@@ -37,3 +37,18 @@ def test_a_lone_loop_is_cut_into_blocks():
     found = left_out([Record(np.arange(300.0), u, u)])
     assert found.blocks.folds == 4
     assert not found.telling
+
+
+def test_only_of_a_lone_record_is_the_last_part_predicted_from_what_came_before():
+    alone = last_part([record(1.0, "alone")])
+    assert alone.sum() == 400
+    assert np.all(np.diff(alone.astype(int)) >= 0)
+    assert not last_part([record(1.0, "one"), record(2.0, "other")]).any()
+
+
+def test_the_last_part_goes_little_further_than_what_comes_before():
+    growing = record(np.geomspace(0.001, 1.0, TIME.size), "growing")
+    last = last_part([growing])
+    assert last.any()
+    assert np.ptp(growing.input) <= 1.6 * np.ptp(growing.input[~last])
+    assert last.sum() < 400

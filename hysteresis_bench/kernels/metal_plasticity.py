@@ -1,0 +1,92 @@
+"""Cyclic plasticity of a metal under one strain: nonlinear kinematic and isotropic hardening, exact on every increment.
+
+With stresses over Young's modulus, s the direction of an increment and p the plastic path, equations of [1, 2]
+
+    stress = s (yield + R(p)) + X_1 + X_2 while it flows,   dX_k = gamma_k (S_k s - X_k) dp,
+    R = Q (1 - exp(-b p)) - D (1 - exp(-a p)),
+
+are solved along the path: X_k relaxes towards s S_k, so that only the plastic share of the increment has to be found,
+by Newton's method, where the stress that it leaves is the one of the flow.
+
+[1] J. Lemaitre, J.-L. Chaboche, Mechanics of Solid Materials, Cambridge University Press (1990), section 5.4.
+[2] A. R. Hartloper, A. de Castro e Sousa, D. G. Lignos, J. Structural Engineering 147 (2021) 04021028.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import njit
+
+from hysteresis_bench.arrays import Array
+
+CLOSE = 1e-13
+"""Excess of stress over the yield, as a share of the strain increment, at which the plastic share counts as found."""
+MOST_STEPS = 60
+STEEPEST = 0.05
+"""Least slope of the excess: where a metal softens faster, the step is not lengthened."""
+
+YIELD, Q, B, D, A, S_1, GAMMA_1, S_2, GAMMA_2 = range(9)
+"""Rows of the parameters."""
+
+
+@njit(cache=True, error_model="numpy")
+def flowed(stress: Array, step: float, p: Array) -> None:
+    """Goes on by a strain of `step`.
+
+    stress : float64[4]    the state: stress, X_1, X_2, all over Young's modulus, and the plastic path; written
+    p : float64[9]         rows as named above
+    """
+    s = math.copysign(1.0, step)
+    tried = s * stress[0] + abs(step)
+    X_1, X_2, path = s * stress[1], s * stress[2], stress[3]
+    size = p[YIELD] + p[Q] * -math.expm1(-p[B] * path) - p[D] * -math.expm1(-p[A] * path)
+    excess = tried - X_1 - X_2 - size
+    if excess <= 0.0:
+        stress[0] += step
+        return
+    flow, low, high = 0.0, 0.0, np.inf
+    new_1, new_2 = X_1, X_2
+    for _ in range(MOST_STEPS):
+        new_1 = p[S_1] + (X_1 - p[S_1]) * math.exp(-p[GAMMA_1] * flow)
+        new_2 = p[S_2] + (X_2 - p[S_2]) * math.exp(-p[GAMMA_2] * flow)
+        hardened, softened = math.exp(-p[B] * (path + flow)), math.exp(-p[A] * (path + flow))
+        size = p[YIELD] + p[Q] * (1.0 - hardened) - p[D] * (1.0 - softened)
+        excess = tried - flow - new_1 - new_2 - size
+        if abs(excess) <= CLOSE * abs(step):
+            break
+        if excess > 0.0:
+            low = flow
+        else:
+            high = flow
+        slope = 1.0 + p[GAMMA_1] * (p[S_1] - new_1) + p[GAMMA_2] * (p[S_2] - new_2)
+        slope += p[Q] * p[B] * hardened - p[D] * p[A] * softened
+        flow += excess / max(slope, STEEPEST)
+        if not low < flow < high:
+            flow = 0.5 * (low + high)
+    stress[0] = s * (tried - flow)
+    stress[1] = s * new_1
+    stress[2] = s * new_2
+    stress[3] = path + flow
+
+
+@njit(cache=True, error_model="numpy")
+def metal_plasticity(u: Array, parameters: Array) -> Array:
+    """Stress over Young's modulus.
+
+    u : float64[samples, 1] or float64[samples, swarm]    strain, any unit
+    parameters : float64[9, swarm]    yield > 0, unit of u; Q; b >= 0, 1 / unit of u; D; a >= 0; S_1 >= 0, unit of u;
+        gamma_1 >= 0, 1 / unit of u; S_2; gamma_2; Q and D in the unit of u, yield + Q - D > 0
+    -> float64[samples, swarm]        unit of u, 0 at the first sample
+    """
+    samples, columns = u.shape
+    swarm = parameters.shape[1]
+    out = np.zeros((samples, swarm))
+    for j in range(swarm):
+        column = j if columns > 1 else 0
+        p, state = parameters[:, j].copy(), np.zeros(4)
+        for i in range(1, samples):
+            flowed(state, u[i, column] - u[i - 1, column], p)
+            out[i, j] = state[0]
+    return out

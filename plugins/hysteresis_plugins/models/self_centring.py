@@ -1,0 +1,107 @@
+"""Self-centring: an elastic curve that bends once on either side, beside friction or yielding.
+
+[1] C. Christopoulos, A. Filiatrault, B. Folz, Earthquake Eng. Struct. Dyn. 31 (2002) 1131: the flag-shaped loop.
+[2] M. Menegotto, P. E. Pinto, IABSE Reports 13 (1973) 15: the rounded corner.
+[3] P. R. Dahl, A solid friction model, Aerospace Corporation, TOR-158(3107-18) (1968).
+
+Legend: u displacement, F force, w the way from the centre, z the force of what yields over its strength.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Example, Model
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, steepness
+
+STRONGEST = 5.0
+"""Largest forces, in ranges of the output."""
+
+
+@dataclass(frozen=True)
+class SelfCentring(Model):
+    """Self-centring: a flag-shaped loop, as of a rocking wall that is held down by tendons beside parts that yield.
+
+    F = up max(w, 0) + down min(w, 0) + F_r e(w / u_r) + F_y z, w = u - centre, e(x) = x / (1 + |x|^m)^(1/m) [1, 2],
+    dz/du = |1 - z sgn(u')|^i / u_y [3]. Rate-independent, passive, linear in both slopes, F_r and F_y; its loop runs
+    clockwise, force over displacement.
+
+    Ours: slopes of their own on either side, and a rounded yielding. z = 0 at the first sample. The constant is the
+    effect bias, or record-offset.
+    """
+
+    parameters = (
+        Parameter("u_r", 1e-2, 2.0, "{input}", "log", meaning="way from the centre to the bend", positive=True),
+        Parameter("m", 0.5, 20.0, scaling="log", meaning="sharpness of the bend", positive=True),
+        Parameter("centre", -0.2, 0.2, "{input}", meaning="where it comes to rest"),
+        Parameter("u_y", 1e-3, 1.0, "{input}", "log", meaning="displacement of yielding, F_y over k", positive=True),
+        Parameter("i", 0.1, 3.0, meaning="roundness of yielding; at 0 it is sharp"),
+        Parameter("up", -5.0, 5.0, "{output}/{input}", meaning="slope above the bend"),
+        Parameter("down", -5.0, 5.0, "{output}/{input}", meaning="slope below the bend of the other side"),
+        Parameter("F_r", -5.0, 5.0, "{output}", meaning="force of the bend"),
+        Parameter("F_y", 0.0, 5.0, "{output}", meaning="strength of what yields"),
+    )
+    linear = ("up", "down", "F_r", "F_y")
+    properties = ("rate-independent",)
+    senses = (-1,)
+    example = Example(
+        4.0,
+        {
+            "u_r": 0.6,
+            "m": 3.0,
+            "centre": 0.05,
+            "u_y": 0.4,
+            "i": 1.0,
+            "up": 0.3,
+            "down": 0.3,
+            "F_r": 1.5,
+            "F_y": 0.4,
+        },
+        stream=19,
+    )
+
+    def simulate(self, signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.dahl import dahl
+
+        force = dahl(signal.input, p.u_y, p.i, np.zeros_like(p.u_y))
+        force *= p.F_y
+        way = signal.input - p.centre
+        force += p.up * np.maximum(way, 0.0) + p.down * np.minimum(way, 0.0)
+        force += p.F_r * _bent(way / p.u_r, p.m)
+        return force
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Displacements of the bend and of yielding from a thousandth of the span of the input to all of it, the
+        centre in its middle fifth; forces up to five times the range of the output."""
+        boxes = {q.name: q for q in self.parameters}
+        span, most, forces = input_span(records), STEEPEST * steepness(records), STRONGEST * output_span(records)
+        low = min(float(np.min(record.input)) for record in records)
+        high = max(float(np.max(record.input)) for record in records)
+        middle = 0.5 * (low + high)
+        inside = {
+            "u_r": boxes["u_r"].within(1e-3 * span, span),
+            "centre": boxes["centre"].within(middle - 0.1 * span, middle + 0.1 * span),
+            "u_y": boxes["u_y"].within(1e-3 * span, span),
+            "up": boxes["up"].within(-most, most),
+            "down": boxes["down"].within(-most, most),
+            "F_r": boxes["F_r"].within(-forces, forces),
+            "F_y": boxes["F_y"].within(0.0, forces),
+        }
+        return tuple(inside.get(name, box) for name, box in boxes.items())
+
+    def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
+        return offset(records)
+
+
+def _bent(x: Array, m: Array) -> Array:
+    """x / (1 + |x|^m)^(1/m), (samples, swarm), from what of it is below 1 so that no power overflows."""
+    size = np.abs(x)
+    small, large = np.minimum(size, 1.0), np.maximum(size, 1.0)
+    return np.asarray(np.sign(x) * small / (1.0 + (small / large) ** m) ** (1.0 / m))

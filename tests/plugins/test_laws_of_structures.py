@@ -1,0 +1,49 @@
+"""Laws of metals, timber and rocking walls on data of known truth."""
+
+import numpy as np
+import pytest
+
+from hysteresis_plugins.models.chaboche import Chaboche
+from hysteresis_plugins.models.folz_filiatrault import FolzFiliatrault
+from hysteresis_plugins.models.self_centring import SelfCentring
+from tests.plugins.truths import held, record, solved, waves
+
+METAL = {"u_y": 0.1, "Q": 0.4, "b": 0.1, "D": 0.1, "a": 1.0, "S_1": 0.6, "gamma_1": 9.0, "S_2": 0.8, "gamma_2": 2.0}
+TRUTHS = (
+    (Chaboche(), METAL, {"E": 2.0}),
+    (
+        FolzFiliatrault(),
+        {"u_y": 0.1, "r_1": 0.05, "r_3": 1.2, "f_I": 0.1, "r_4": 0.3, "alpha": 0.6, "beta": 1.05},
+        {"F_0": 1.5},
+    ),
+    (
+        SelfCentring(),
+        {"u_r": 0.2, "m": 3.0, "centre": 0.02, "u_y": 0.1, "i": 1.0},
+        {"up": 0.4, "down": 0.3, "F_r": 1.5, "F_y": 0.3},
+    ),
+)
+
+
+@pytest.mark.parametrize(("law", "known", "linear"), TRUTHS, ids=lambda one: type(one).__name__)
+def test_forces_are_found_again_inside_the_box(law, known, linear):
+    one = record(law, waves(), **known, **linear)
+    found = solved(law, one, **known)
+    np.testing.assert_allclose([found[name] for name in linear], list(linear.values()), rtol=1e-6)
+    assert not held(law, [one], {**known, **linear})
+
+
+@pytest.mark.parametrize(("law", "known", "linear"), TRUTHS, ids=lambda one: type(one).__name__)
+def test_they_take_energy_from_a_closed_path(law, known, linear):
+    one = record(law, np.concatenate([waves(), waves()[::-1]]), **known, **linear)
+    assert np.sum(0.5 * (one.output[1:] + one.output[:-1]) * np.diff(one.input)) > 0.0
+
+
+def test_a_rocking_wall_comes_back_to_its_centre():
+    law, known, linear = TRUTHS[2]
+    one = record(law, waves(), **known, **{**linear, "F_y": 0.0})
+    rest = record(law, np.full(3, 0.02), **known, **{**linear, "F_y": 0.0})
+    np.testing.assert_allclose(rest.output, 0.0, atol=1e-15)
+    large = np.abs(one.input - 0.02) > 5 * 0.2
+    side = np.where(one.input > 0.02, 0.4, 0.3)
+    straight = side * (one.input - 0.02) + 1.5 * np.sign(one.input - 0.02)
+    np.testing.assert_allclose(one.output[large], straight[large], rtol=5e-3)
