@@ -9,11 +9,13 @@ particles, and the step of `bouc_wen_step` only for those whose h crosses 0 or r
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, regrown, relaxed
+from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, grown, relaxed
 
 SERIES_LIMIT = 0.25
 """Largest |rate w| for the series of (1 - exp(-x)) / x below; its first neglected term is 2.4e-14 there."""
@@ -22,37 +24,43 @@ LANES = 64
 """Particles that are integrated side by side."""
 
 FULL = 8
-"""Particles on a shared input are integrated in multiples of this many, those that pad them at rest: a loop over
-what is left of a vector takes longer than one over all of it, but for FEW particles."""
+"""Particles are integrated in multiples of this many, those that pad them at rest: a loop over what is left of a
+vector takes longer than one over all of it, but for FEW particles."""
 FEW = 3
 
-# Rows of one work array: constant offsets tell the compiler that they do not overlap.
-G, OLD, WIDTH, WEAKENED, DRIVE, ALONG, AGAINST, BOUND, SLOPE, MIRROR, DIRECTION, OUT = (
-    row * LANES for row in range(12)
+# Rows of one work array: constant offsets tell the compiler that they do not overlap, unsigned ones that no index is
+# negative, which would keep loops from being vectorised.
+H, OLD, STEP, WEAKENED, DRIVE, RISING, FALLING, LOW, HIGH, BETA, GAMMA, BOUND, SLOPE, INPUT = (
+    np.uint64(row * LANES) for row in range(14)
 )
-ROWS = 12
+ROWS = 14
 
 
 @njit(cache=True, error_model="numpy", fastmath=True)
-def paths(u: Array) -> tuple[Array, Array]:
-    """Of every column of u, float64[samples, columns]: the path's length and the largest increment."""
+def paths(u: Array) -> Array:
+    """Length of the path of every column of u, float64[samples, columns]."""
     samples, columns = u.shape
-    length = np.zeros(columns)
-    largest = np.zeros(columns)
-    if columns == 1:  # scalars, so that the loop over the samples is vectorised instead
-        shared, total, most = u[:, 0].copy(), 0.0, 0.0
+    lengths = np.zeros(columns)
+    if columns == 1:  # a scalar, so that the loop over the samples is vectorised instead
+        shared, total = u[:, 0].copy(), 0.0
         for i in range(1, samples):
-            width = abs(shared[i] - shared[i - 1])
-            total += width
-            most = max(most, width)
-        length[0], largest[0] = total, most
-        return length, largest
+            total += abs(shared[i] - shared[i - 1])
+        lengths[0] = total
+        return lengths
     for i in range(1, samples):
         for j in range(columns):
-            width = abs(u[i, j] - u[i - 1, j])
-            length[j] += width
-            largest[j] = max(largest[j], width)
-    return length, largest
+            lengths[j] += abs(u[i, j] - u[i - 1, j])
+    return lengths
+
+
+@njit(cache=True, error_model="numpy")
+def bounded(alpha: Array, beta: Array, gamma: Array, d: Array) -> bool:
+    """Does h have a bound for all particles? Then it never comes near RUNAWAY."""
+    for k in range(d.size):
+        along = beta[k] + gamma[k] if alpha[k] * d[k] >= 0.0 else beta[k] - gamma[k]
+        if not (beta[k] >= 0.0 and along >= 0.0):
+            return False
+    return True
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
@@ -67,172 +75,165 @@ def series(x):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def _coarse(work: Array, used: int, largest: float) -> int:
-    """Advance g by increments of any width, one for each lane: the series on a part of the increment that
-    is short enough, then doubled. largest : of |rate w| in all lanes -> number of lanes that want `_mended`."""
+def prepared(work: Array, j: np.uint64, p: tuple[Array, ...], k: int, path: tuple[float, float, float]) -> float:
+    """Lane j is particle k at rest; p : alpha, beta, gamma, d;  path : its first input, length, n -> fastest rate."""
+    alpha, beta, gamma, d = p
+    work[DRIVE + j] = alpha[k] * d[k]
+    work[BETA + j], work[GAMMA + j], work[SLOPE + j] = beta[k], gamma[k], d[k]
+    work[INPUT + j] = path[0]
+    work[BOUND + j] = RUNAWAY * abs(work[DRIVE + j]) * path[1]
+    _sided(work, j, path[2])
+    return max(abs(beta[k] + gamma[k]), abs(beta[k] - gamma[k]))
+
+
+@njit(cache=True, error_model="numpy")
+def _sided(work: Array, j: np.uint64, n: float) -> None:
+    """What the sign of a lane's h decides: its rate where the input rises or falls, and up to where that holds."""
+    h, beta, gamma, bound = work[H + j], work[BETA + j], work[GAMMA + j], work[BOUND + j]
+    mirror = 1.0 if work[DRIVE + j] >= 0.0 else -1.0
+    rising = math.copysign(1.0, h) if h != 0.0 else mirror  # the sign of h
+    falling = rising if h != 0.0 else -mirror
+    even = n == 2.0  # of a power that is written without |h|
+    work[RISING + j] = (beta + rising * gamma) * (rising if even else 1.0)
+    work[FALLING + j] = (-beta + falling * gamma) * (falling if even else 1.0)
+    work[LOW + j] = -bound if h < 0.0 else 0.0
+    work[HIGH + j] = bound if h > 0.0 else 0.0
+
+
+@njit(inline="always", error_model="numpy")
+def outside(work, j):  # type: ignore[no-untyped-def]
+    """Does a lane's h want `mended`?"""
+    return not ((work[H + j] >= work[LOW + j]) & (work[H + j] <= work[HIGH + j]))
+
+
+@njit(cache=True, error_model="numpy")
+def mended(work: Array, lanes: np.uint64, n: float) -> bool:
+    """Repeat the increment for the lanes whose h crossed 0 on it, or is NaN as it was too long; cut the ones that
+    ran away -> whether it was too long for one."""
+    long = False
+    for j in range(lanes):
+        if outside(work, j):
+            new = work[H + j]
+            lost = new != new
+            drive, beta, gamma, bound = work[DRIVE + j], work[BETA + j], work[GAMMA + j], work[BOUND + j]
+            mirror = 1.0 if drive >= 0.0 else -1.0
+            toward = mirror if work[STEP + j] >= 0.0 else -mirror
+            g, free, width = toward * work[OLD + j], toward * new, abs(work[STEP + j])
+            if lost or g < 0.0 < free or (g == 0.0 and n > 1.0):
+                free = grown(g, abs(drive), beta + mirror * gamma, beta - mirror * gamma, n, width, bound)
+            work[H + j] = toward * min(max(free, -bound), bound)
+            if lost or g <= 0.0 or free <= 0.0:
+                _sided(work, np.uint64(j), n)
+            long = long or lost
+    return long
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _advanced(work, j, rate, step, asked):  # type: ignore[no-untyped-def]
+    """h of one lane after an increment, by the series; NaN where it is `asked` whether that is too long, and it is
+    -> 1 where that wants `mended`."""
+    h = work[H + j]
+    new = relaxed(h, work[DRIVE + j], rate, step * series(rate * step))
+    work[OLD + j] = h
+    work[H + j] = np.nan if asked and abs(rate * step) > SERIES_LIMIT else new
+    return 1 if outside(work, j) else 0
+
+
+@njit(cache=True, error_model="numpy")
+def _coarse(work: Array, lanes: np.uint64, largest: float) -> int:
+    """h after increments of any width, one for each lane: the series on a part of the increment that
+    is short enough, then doubled. largest : of |rate step| in all lanes -> number of lanes that want `mended`."""
     doublings = 0
     scale = 1.0
     while largest * scale > SERIES_LIMIT:
         doublings += 1
         scale *= 0.5
-    for j in range(used):
-        along = work[ALONG + j]
-        against = work[AGAINST + j]
-        rate = against if work[G + j] < 0.0 else along
-        part = work[WIDTH + j] * scale
+    for j in range(lanes):
+        rising, falling = work[RISING + j], work[FALLING + j]
+        rate = rising if work[STEP + j] >= 0.0 else falling
+        part = work[STEP + j] * scale
         work[WEAKENED + j] = part * series(rate * part)
     for _ in range(doublings):  # (1 - e^-2x) / rate = f (2 - rate f), which loses no digits
-        for j in range(used):
-            along = work[ALONG + j]
-            against = work[AGAINST + j]
-            rate = against if work[G + j] < 0.0 else along
+        for j in range(lanes):
+            rising, falling = work[RISING + j], work[FALLING + j]
+            rate = rising if work[STEP + j] >= 0.0 else falling
             work[WEAKENED + j] *= 2.0 - rate * work[WEAKENED + j]
     special = 0
-    for j in range(used):
-        g = work[G + j]
-        along = work[ALONG + j]
-        against = work[AGAINST + j]
-        rate = against if g < 0.0 else along
-        free = relaxed(g, work[DRIVE + j], rate, min(work[WEAKENED + j], HUGE))
-        work[OLD + j] = g
-        work[G + j] = free
-        special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
+    for j in range(lanes):
+        h, rising, falling = work[H + j], work[RISING + j], work[FALLING + j]
+        rate = rising if work[STEP + j] >= 0.0 else falling
+        work[OLD + j] = h
+        work[H + j] = relaxed(h, work[DRIVE + j], rate, max(min(work[WEAKENED + j], HUGE), -HUGE))
+        special += 1 if outside(work, j) else 0
     return special
 
 
-@njit(cache=True, error_model="numpy")
-def _mended(work: Array, used: int) -> None:
-    """Repeat the increment for the lanes whose g crossed 0 on it; cut the ones that ran away."""
-    for j in range(used):
-        if work[OLD + j] < 0.0 and work[G + j] > 0.0:
-            along, against = work[ALONG + j], work[AGAINST + j]
-            work[G + j] = regrown(work[OLD + j], work[DRIVE + j], along, against, work[WIDTH + j])
-        work[G + j] = min(max(work[G + j], -work[BOUND + j]), work[BOUND + j])
-
-
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _fine(work, j, g, width):  # type: ignore[no-untyped-def]
-    """g of one lane after an increment that is short enough for the series."""
-    along = work[ALONG + j]
-    against = work[AGAINST + j]
-    rate = against if g < 0.0 else along
-    return relaxed(g, work[DRIVE + j], rate, width * series(rate * width))
-
-
-@njit(inline="always", error_model="numpy")
-def _turned(work, j, step):  # type: ignore[no-untyped-def]
-    """g = s h of one lane changes sign with s, the direction of the input."""
-    mirror = work[MIRROR + j]
-    direction = mirror if step >= 0.0 else -mirror
-    g = work[G + j] * work[DIRECTION + j]
-    work[DIRECTION + j] = direction
-    return g * direction
-
-
-@njit(cache=True, error_model="numpy")
-def _faced(work: Array, now: Array, before: Array) -> None:
-    """From h to g in the direction of each lane's own input, which goes from `before` to `now`."""
-    for j in range(now.size):
-        step = now[j] - before[j]
-        work[DIRECTION + j] = 1.0 if step >= 0.0 else -1.0
-        work[G + j] *= work[DIRECTION + j]
-        work[WIDTH + j] = abs(step)
-
-
-@njit(cache=True, error_model="numpy")
-def _unfaced(work: Array, used: int) -> None:
-    for j in range(used):
-        work[G + j] *= work[DIRECTION + j]
-
-
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _side_by_side(
-    u: Array, moved: tuple[Array, Array], shared: bool, p: tuple[Array, Array, Array, Array], v: Array
-) -> None:
-    """As `bouc_wen`, for LANES particles at most, into v. moved : `paths` of u;  p : alpha, beta, gamma, d
+def _side_by_side(u: Array, lengths: Array, p: tuple[Array, Array, Array, Array], v: Array, first: int) -> None:
+    """As `bouc_wen`, for the LANES particles from `first` on, into v. lengths : `paths` of u;  p : alpha to d
 
-    Loops run over columns from the first one on, as an index that might be negative keeps them from being vectorised;
-    a shared input's go by the work array, as one that writes into v makes a swarm of one wait.
+    Those that pad them read and write what follows in u and v, but for the last sample.
     """
-    alpha, beta, gamma, d = p
-    length, largest = moved
-    samples, used = v.shape
+    samples, swarm = v.shape
+    shared = u.shape[1] == 1
+    inputs, outputs = u.ravel(), v.reshape(samples * swarm)
+    used = min(LANES, swarm - first)
     full = -(-used // FULL) * FULL if used > FEW else used
     work = np.zeros(ROWS * LANES)
-    fastest = 0.0
-    widest = 0.0
-    rising = True
-    for j in range(used):
-        column = 0 if shared else j
-        loop = alpha[j] * d[j]
-        mirror = 1.0 if loop >= 0.0 else -1.0
-        work[DRIVE + j] = abs(loop)
-        work[ALONG + j] = beta[j] + mirror * gamma[j]
-        work[AGAINST + j] = beta[j] - mirror * gamma[j]
-        work[BOUND + j] = RUNAWAY * abs(loop) * length[column]
-        work[SLOPE + j] = d[j]
-        work[MIRROR + j] = mirror
-        work[DIRECTION + j] = mirror
-        widest = max(widest, largest[column])
-        fastest = max(fastest, max(abs(work[ALONG + j]), abs(work[AGAINST + j])))
-        v[0, j] = d[j] * u[0, column]
+    fastest, long = 0.0, False
+    for k in range(first, first + used):
+        x, length = (u[0, 0], lengths[0]) if shared else (u[0, k], lengths[k])
+        fastest = max(fastest, prepared(work, np.uint64(k - first), p, k, (x, length, 1.0)))
+        v[0, k] = p[3][k] * x
     for i in range(1, samples):
-        steepest = fastest * (abs(u[i, 0] - u[i - 1, 0]) if shared else widest)
+        lanes = np.uint64(full if i + 1 < samples else used)
+        row = np.uint64(i * swarm + first)
         special = 0
-        if not shared:  # G holds h without the mirror's sign: a lane turns whenever its own input does
-            if steepest > SERIES_LIMIT:
-                _faced(work, u[i], u[i - 1])
-                special = _coarse(work, used, steepest)
-                _unfaced(work, used)
-                for j in range(used):
-                    v[i, j] = work[SLOPE + j] * u[i, j] - work[MIRROR + j] * work[G + j]
+        if not shared:
+            widest = 0.0
+            if long:
+                for j in range(lanes):
+                    step = inputs[row + j] - work[INPUT + j]
+                    work[STEP + j] = step
+                    work[INPUT + j] = inputs[row + j]
+                    widest = max(widest, abs(step))
+                special = _coarse(work, lanes, fastest * widest)
+                for j in range(lanes):
+                    outputs[row + j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
             else:
-                for j in range(used):
-                    x = u[i, j]
-                    step = x - u[i - 1, j]
-                    direction = 1.0 if step >= 0.0 else -1.0
-                    g = work[G + j] * direction
-                    free = _fine(work, j, g, abs(step))
-                    h = free * direction
-                    work[OLD + j] = g
-                    work[G + j] = h
-                    v[i, j] = work[SLOPE + j] * x - work[MIRROR + j] * h
-                    special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
+                for j in range(lanes):
+                    now, rising, falling = inputs[row + j], work[RISING + j], work[FALLING + j]
+                    step = now - work[INPUT + j]
+                    work[STEP + j] = step
+                    work[INPUT + j] = now
+                    special += _advanced(work, j, rising if step >= 0.0 else falling, step, True)
+                    outputs[row + j] = work[SLOPE + j] * now - work[H + j]
             if special > 0:
-                _faced(work, u[i], u[i - 1])
-                _mended(work, used)
-                _unfaced(work, used)
-                for j in range(used):
-                    v[i, j] = work[SLOPE + j] * u[i, j] - work[MIRROR + j] * work[G + j]
+                long = mended(work, lanes, 1.0) or long
+                for j in range(lanes):
+                    outputs[row + j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
             continue
 
         x = u[i, 0]
         step = x - u[i - 1, 0]
-        width = abs(step)
-        if (step < 0.0) == rising and step != 0.0:
-            rising = not rising
-            for j in range(full):
-                work[G + j] = _turned(work, j, step)
-        if steepest > SERIES_LIMIT:
-            work[WIDTH : WIDTH + full] = width
-            special = _coarse(work, full, steepest)
-            for j in range(full):
-                work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
-        else:  # the same in one pass
-            for j in range(full):
-                g = work[G + j]
-                free = _fine(work, j, g, width)
-                work[OLD + j] = g
-                work[G + j] = free
-                work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * free
-                special += 1 if ((g < 0.0) & (free > 0.0)) | (abs(free) > work[BOUND + j]) else 0
+        if fastest * abs(step) > SERIES_LIMIT:
+            work[STEP : STEP + lanes] = step
+            special = _coarse(work, lanes, fastest * abs(step))
+            for j in range(lanes):
+                outputs[row + j] = work[SLOPE + j] * x - work[H + j]
+        elif step >= 0.0:
+            for j in range(lanes):
+                special += _advanced(work, j, work[RISING + j], step, False)
+                outputs[row + j] = work[SLOPE + j] * x - work[H + j]
+        else:
+            for j in range(lanes):
+                special += _advanced(work, j, work[FALLING + j], step, False)
+                outputs[row + j] = work[SLOPE + j] * x - work[H + j]
         if special > 0:
-            work[WIDTH : WIDTH + full] = width
-            _mended(work, full)
-            for j in range(full):
-                work[OUT + j] = work[SLOPE + j] * x - work[DIRECTION + j] * work[G + j]
-        for j in range(used):
-            v[i, j] = work[OUT + j]
+            work[STEP : STEP + lanes] = step
+            mended(work, lanes, 1.0)
+            for j in range(lanes):
+                outputs[row + j] = work[SLOPE + j] * x - work[H + j]
 
 
 @njit(cache=True, error_model="numpy")
@@ -247,19 +248,8 @@ def bouc_wen(u: Array, alpha: Array, beta: Array, gamma: Array, d: Array) -> Arr
 
     [1] eq. (1)  Ours: h = 0 at the first sample, so v(0) = d u(0).
     """
-    samples, columns = u.shape
-    swarm = d.size
-    shared = columns == 1
-    length, largest = paths(u)
-    v = np.empty((samples, swarm))
-    if swarm <= LANES:
-        _side_by_side(u, (length, largest), shared, (alpha, beta, gamma, d), v)
-        return v
-    for first in range(0, swarm, LANES):
-        part = slice(first, min(first + LANES, swarm))
-        some = np.empty((samples, d[part].size))
-        own = u if shared else u[:, part].copy()
-        moved = (length, largest) if shared else (length[part], largest[part])
-        _side_by_side(own, moved, shared, (alpha[part], beta[part], gamma[part], d[part]), some)
-        v[:, part] = some
+    lengths = np.full(u.shape[1], np.inf) if bounded(alpha, beta, gamma, d) else paths(u)
+    v = np.empty((u.shape[0], d.size))
+    for first in range((d.size - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
+        _side_by_side(u, lengths, (alpha, beta, gamma, d), v, first)
     return v

@@ -1,14 +1,20 @@
 """Bouc-Wen hysteresis of a swarm with any smoothness n > 1: `bouc_wen_step` has the law and its step for one particle.
 
 That step chooses its length for itself, which keeps a loop over a swarm from being vectorised. Here all particles make
-one Taylor step of fifth order an increment of the input, side by side, or several of equal length where the increments
-are coarse; the last term is the estimate of the error. The step of `bouc_wen_step` is made only for the particles
-whose h crosses 0 and for those few whose error is too large: 12 to 110 times as fast for finely sampled data.
+one step an increment of the input, side by side, or several of equal length where the increments are coarse. The step
+of `bouc_wen_step` is made only for the particles whose h crosses 0 and for those few that want shorter ones still.
 
-With a = |g| and the derivatives in g of f = A - rate |g|^(n-1) g written D, E, F, G,
+With w the increment and f = A - rate |h|^(n-1) h, the step is for n = 2, where rate' has the sign of h, exact [1]:
 
-    g'' = D f,   g''' = E f^2 + D^2 f,   g'''' = (F f^2 + 4 D E f + D^3) f,
-    g''''' = (G f^3 + (7 D F + 4 E^2) f^2 + 11 D^2 E f + D^4) f.
+    h + f T / (1 + rate' h T),   T = w tanh(z) / z,   z^2 = A rate' w^2,
+
+and a Taylor step of fifth order for every other n, the last term of which is the estimate of the error. With the
+derivatives in h of f written D, E, F, G,
+
+    h'' = D f,   h''' = E f^2 + D^2 f,   h'''' = (F f^2 + 4 D E f + D^3) f,
+    h''''' = (G f^3 + (7 D F + 4 E^2) f^2 + 11 D^2 E f + D^4) f.
+
+[1] W. T. Reid, Riccati Differential Equations, Academic Press (1972), ch. I.
 """
 
 from __future__ import annotations
@@ -20,186 +26,196 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.bouc_wen import FEW as FEW_LANES
-from hysteresis_bench.kernels.bouc_wen import FULL, paths
-from hysteresis_bench.kernels.bouc_wen_step import RUNAWAY, integrated
+from hysteresis_bench.kernels.bouc_wen import (
+    DRIVE,
+    FALLING,
+    FEW,
+    FULL,
+    INPUT,
+    LANES,
+    OLD,
+    RISING,
+    ROWS,
+    SLOPE,
+    STEP,
+    H,
+    mended,
+    outside,
+    paths,
+    prepared,
+)
 from hysteresis_bench.kernels.elementary import exponential, logarithm
 
-TOLERANCE = 1e-8
-"""Largest last term of the series as a share of A w; what the result is off by is a hundredth of it or less."""
+TOLERANCE, TOLERANCE_ANY = 1e-8, 2e-9
+"""Largest last term of the series as a share of A w, n = 3 and any n; what the result is off by is a hundredth of it
+or less on finely sampled data."""
+
+FRACTION_LIMIT = 0.3
+"""Largest |z^2| for the continued fraction of tanh(z) / z below; it is off by 1e-15 there."""
 
 MOST_STEPS = 32
 """Steps an increment; particles that want more are left to the step for one particle."""
 
-FEW = 8
-"""One particle in so many may be left to the step for one particle before all make shorter steps."""
+LONGER, LONGER_ANY = 250, 15
+"""So many times longer takes the step for one particle than one of those side by side, n whole and n not whole."""
 
 TINY = 1e-60
 
-LANES = 64
-"""Particles that are integrated side by side."""
-
-# Rows of one work array: constant offsets tell the compiler that they do not overlap.
-H, G, OLD, WIDTH, SIGN, SPECIAL, DRIVE, ALONG = (row * LANES for row in range(8))
-AGAINST, BOUND, SLOPE, MIRROR, INPUT, POWER, OUT = (row * LANES for row in range(8, 15))
-ROWS = 15
+POWER = np.uint64(ROWS * LANES)
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _advanced(g, power, drive, along, against, n, whole, width):  # type: ignore[no-untyped-def]
-    """g after a step, its slope before, and the size of the last term.
+def _squared_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
+    rise, decay = drive * step, rate * step
+    z2, bend = rise * decay, decay * h
+    top = 1.0 + z2 * (5 / 39 + z2 * (2 / 715 + z2 * (1 / 135135)))
+    bottom = 1.0 + z2 * (6 / 13 + z2 * (10 / 429 + z2 * (4 / 19305)))
+    new = h + (rise - bend * h) * top / (bottom + bend * top)
+    return new if abs(z2) <= FRACTION_LIMIT else np.nan
 
-    power : |g|^(n - 1), where `whole` is 0;  whole : n where it is 2 or 3, else 0; a constant
-    """
-    size = abs(g)
-    rate = against if g < 0.0 else along
-    signed = rate * math.copysign(1.0, g)
-    if whole == 2:
-        p1, p2, p3, p4 = size, 1.0, 0.0, 0.0
-    elif whole == 3:
-        p1, p2, p3, p4 = size * size, size, 1.0, 0.0
-    else:
-        p1 = power
-        inverse = 1.0 / max(size, TINY)
-        p2 = p1 * inverse
-        p3 = p2 * inverse
-        p4 = p3 * inverse
-    f = drive - rate * g * p1
-    d = -n * rate * p1
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _cubed_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
+    """The series with all its factors multiplied out."""
+    rise, decay = drive * step, rate * step
+    bend = decay * h
+    c = bend * h
+    first = rise - c * h
+    m, k, c3 = decay * first, bend * c, c * c * c
+    third = 1.5 * c * c - bend * first
+    fourth = first * (3.0 * k - 0.25 * m) - 1.125 * c3
+    last = first * (c * (first * (2.25 * m - 4.95 * k) + 0.675 * c3))
+    new = h + (first * ((1.0 - 1.5 * c) + (third + fourth)) + last)
+    return new if abs(last) <= TOLERANCE * abs(rise) else np.nan
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _power_step(h, power, drive, rate, step, n):  # type: ignore[no-untyped-def]
+    """power : |h|^(n - 1)"""
+    size = abs(h)
+    inverse = 1.0 / (size if size > TINY else TINY)
+    signed = rate * math.copysign(1.0, h)
+    p2 = power * inverse
+    p3 = p2 * inverse
+    f = drive - rate * h * power
+    d = -n * rate * power
     e = -n * (n - 1.0) * signed * p2
+    ff = -n * (n - 1.0) * (n - 2.0) * rate * p3
+    gg = -n * (n - 1.0) * (n - 2.0) * (n - 3.0) * signed * (p3 * inverse)
     dd = d * d
     third = e * f + dd
+    fourth = f * (ff * f + 4.0 * d * e) + dd * d
+    fifth = f * (f * (gg * f + 7.0 * d * ff + 4.0 * e * e) + 11.0 * dd * e) + dd * dd
+    rise = f * step
+    last = fifth * rise * ((step * step) * (step * step) * (1.0 / 120.0))
+    series = 1.0 + step * (d * (1.0 / 2.0) + step * (third * (1.0 / 6.0) + step * (fourth * (1.0 / 24.0))))
+    new = h + (rise * series + last)
+    return new if abs(last) <= TOLERANCE_ANY * abs(drive * step) else np.nan
+
+
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _advanced(work, j, rate, step, n, whole):  # type: ignore[no-untyped-def]
+    """h of one lane after a step, NaN where that is too long;  whole : n where it is 2 or 3, else 0; a constant"""
+    h, drive = work[H + j], work[DRIVE + j]
     if whole == 2:
-        fourth = d * (4.0 * e * f + dd)
-        fifth = f * e * (4.0 * e * f + 11.0 * dd) + dd * dd
+        new = _squared_step(h, drive, rate, step)
+    elif whole == 3:
+        new = _cubed_step(h, drive, rate, step)
     else:
-        ff = -n * (n - 1.0) * (n - 2.0) * rate * p3
-        gg = -n * (n - 1.0) * (n - 2.0) * (n - 3.0) * signed * p4 if whole == 0 else 0.0
-        fourth = f * (ff * f + 4.0 * d * e) + dd * d
-        fifth = f * (f * (gg * f + 7.0 * d * ff + 4.0 * e * e) + 11.0 * dd * e) + dd * dd
-    rise = f * width
-    last = fifth * rise * ((width * width) * (width * width) * (1.0 / 120.0))
-    series = 1.0 + width * (d * (1.0 / 2.0) + width * (third * (1.0 / 6.0) + width * (fourth * (1.0 / 24.0))))
-    return g + (rise * series + last), f, abs(last)
+        new = _power_step(h, work[POWER + j], drive, rate, step, n)
+    work[H + j] = new
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _powers(work, used, n, whole, row):  # type: ignore[no-untyped-def]
-    """|g|^(n - 1) of all lanes, g in this row; a loop of its own, else the others would not be vectorised."""
+def _powers(work, lanes, n, whole):  # type: ignore[no-untyped-def]
+    """|h|^(n - 1) of all lanes; a loop of its own, else the others would not be vectorised."""
     if whole == 0:
-        for j in range(used):
-            work[POWER + j] = exponential((n - 1.0) * logarithm(abs(work[row + j])))
+        for j in range(lanes):
+            work[POWER + j] = exponential((n - 1.0) * logarithm(abs(work[H + j])))
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _stepped(work, j, g, width, n, whole):  # type: ignore[no-untyped-def]
-    """g of one lane after a step, and whether that is right."""
-    drive = work[DRIVE + j]
-    along = work[ALONG + j]
-    against = work[AGAINST + j]
-    bound = work[BOUND + j]
-    free, f, last = _advanced(g, work[POWER + j], drive, along, against, n, whole, width)
-    smooth = (g > TINY) | ((g < -TINY) & (free <= 0.0))  # else it crosses 0, or leaves it
-    right = smooth & (last <= TOLERANCE * drive * width) & (abs(free) < bound)
-    held = (abs(g) >= bound) & (f * g >= 0.0)  # driven beyond the bound
-
-    return g if held else free, right | held
-
-
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _at_once(work, j, x, step, n, whole):  # type: ignore[no-untyped-def]
-    """One lane on to the input x by one step -> 1 where that is not right, which SPECIAL marks."""
-    mirror = work[MIRROR + j]
-    sign = mirror if step >= 0.0 else -mirror
-    g = sign * work[H + j]
-    new, right = _stepped(work, j, g, abs(step), n, whole)
-    work[WIDTH + j] = abs(step)
-    work[INPUT + j] = x
-    work[SIGN + j] = sign
-    work[OLD + j] = g
-    work[G + j] = new
-    work[H + j] = sign * new
-    work[SPECIAL + j] = 0.0 if right else 1.0
-    work[OUT + j] = work[SLOPE + j] * x - sign * new
-    return 0 if right else 1
-
-
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _in_steps(work, used, n, whole, steps):  # type: ignore[no-untyped-def]
-    """All lanes from OLD to G in so many steps."""
+def _in_steps(work, lanes, n, whole, steps):  # type: ignore[no-untyped-def]
+    """All lanes from OLD on in so many steps; those that want `mended` are NaN."""
     share = 1.0 / steps
-    work[G : G + used] = work[OLD : OLD + used]
-    work[SPECIAL : SPECIAL + used] = 0.0
+    work[H : H + lanes] = work[OLD : OLD + lanes]
     for _ in range(steps):
-        _powers(work, used, n, whole, G)
-        for j in range(used):
-            before = work[SPECIAL + j]
-            new, right = _stepped(work, j, work[G + j], work[WIDTH + j] * share, n, whole)
-            work[G + j] = new
-            work[SPECIAL + j] = before if right else 1.0
+        _powers(work, lanes, n, whole)
+        for j in range(lanes):
+            rising, falling, step = work[RISING + j], work[FALLING + j], work[STEP + j]
+            _advanced(work, j, rising if step >= 0.0 else falling, share * step, n, whole)
+            new = work[H + j]
+            work[H + j] = np.nan if outside(work, j) else new
 
 
 @njit(inline="always", error_model="numpy")
-def _count(work, used):  # type: ignore[no-untyped-def]
-    """How many lanes are marked SPECIAL."""
-    special = 0
-    for j in range(used):
-        special += 1 if work[SPECIAL + j] > 0.0 else 0
-    return special
+def _lost(work, lanes):  # type: ignore[no-untyped-def]
+    """How many lanes are NaN."""
+    lost = 0
+    for j in range(lanes):
+        lost += 1 if work[H + j] != work[H + j] else 0
+    return lost
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
 def _simulated(u, alpha, beta, gamma, d, n, whole):  # type: ignore[no-untyped-def]
-    samples, columns = u.shape
-    swarm = d.size
-    length, _ = paths(u)
+    samples, swarm = u.shape[0], d.size
+    shared = u.shape[1] == 1
+    lengths, p = paths(u), (alpha, beta, gamma, d)
+    longer = LONGER if whole > 0 else LONGER_ANY
     v = np.empty((samples, swarm))
-    flat, inputs, shared = v.reshape(samples * swarm), u.ravel(), columns == 1
-    for first in range(0, swarm, LANES):
+    inputs, outputs = u.ravel(), v.reshape(samples * swarm)
+    for first in range((swarm - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
         used = min(LANES, swarm - first)
-        full = -(-used // FULL) * FULL if whole > 0 and used > FEW_LANES else used
-        work = np.zeros(ROWS * LANES)
-        for j in range(used):
-            column = 0 if shared else first + j
-            loop = alpha[first + j] * d[first + j]
-            mirror = 1.0 if loop >= 0.0 else -1.0
-            work[DRIVE + j] = abs(loop)
-            work[ALONG + j] = beta[first + j] + mirror * gamma[first + j]
-            work[AGAINST + j] = beta[first + j] - mirror * gamma[first + j]
-            work[BOUND + j] = RUNAWAY * abs(loop) * length[column]
-            work[SLOPE + j] = d[first + j]
-            work[MIRROR + j] = mirror
-            work[INPUT + j] = u[0, column]
-            v[0, first + j] = d[first + j] * u[0, column]
+        full = -(-used // FULL) * FULL if used > FEW else used
+        work = np.zeros((ROWS + 1) * LANES)
+        for k in range(first, first + used):
+            x, length = (u[0, 0], lengths[0]) if shared else (u[0, k], lengths[k])
+            prepared(work, np.uint64(k - first), p, k, (x, length, n))
+            v[0, k] = d[k] * x
         steps = 1
         for i in range(1, samples):
-            out = flat[i * swarm + first : i * swarm + first + used]
+            lanes = np.uint64(full if i + 1 < samples else used)
+            row = np.uint64(i * swarm + first)
             special = 0
-            _powers(work, full, n, whole, H)
+            _powers(work, lanes, n, whole)
             if shared:
                 x = u[i, 0]
                 step = x - u[i - 1, 0]
-                for j in range(full):
-                    special += _at_once(work, j, x, step, n, whole)
+                if step >= 0.0:
+                    for j in range(lanes):
+                        work[OLD + j] = work[H + j]
+                        _advanced(work, j, work[RISING + j], step, n, whole)
+                        outputs[row + j] = work[SLOPE + j] * x - work[H + j]
+                        special += 1 if outside(work, j) else 0
+                else:
+                    for j in range(lanes):
+                        work[OLD + j] = work[H + j]
+                        _advanced(work, j, work[FALLING + j], step, n, whole)
+                        outputs[row + j] = work[SLOPE + j] * x - work[H + j]
+                        special += 1 if outside(work, j) else 0
+                if special > 0:
+                    work[INPUT : INPUT + lanes] = x
+                    work[STEP : STEP + lanes] = step
             else:
-                row = inputs[i * swarm + first : i * swarm + first + used]
-                for j in range(used):
-                    special += _at_once(work, j, row[j], row[j] - work[INPUT + j], n, whole)
-            for j in range(used):
-                out[j] = work[OUT + j]
+                for j in range(lanes):
+                    now, rising, falling = inputs[row + j], work[RISING + j], work[FALLING + j]
+                    step = now - work[INPUT + j]
+                    work[OLD + j] = work[H + j]
+                    work[STEP + j] = step
+                    work[INPUT + j] = now
+                    _advanced(work, j, rising if step >= 0.0 else falling, step, n, whole)
+                    outputs[row + j] = work[SLOPE + j] * now - work[H + j]
+                    special += 1 if outside(work, j) else 0
             if special == 0:
                 continue
             steps = max(steps // 2, 2)
-            while special * FEW > used and steps <= MOST_STEPS:
-                _in_steps(work, used, n, whole, steps)
-                special = _count(work, used)
+            while _lost(work, lanes) * longer > steps * lanes and steps <= MOST_STEPS:
+                _in_steps(work, lanes, n, whole, steps)
                 steps *= 2
-            for j in range(used):
-                if work[SPECIAL + j] > 0.0:
-                    drive, along, against = work[DRIVE + j], work[ALONG + j], work[AGAINST + j]
-                    work[G + j] = integrated(work[OLD + j], drive, along, against, n, work[WIDTH + j], work[BOUND + j])
-                work[H + j] = work[SIGN + j] * work[G + j]
-                out[j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
+            mended(work, lanes, n)
+            for j in range(lanes):
+                outputs[row + j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
     return v
 
 

@@ -31,6 +31,9 @@ notice: it has crossed 0 long before the end of the increment, and the crossing 
 NEAR = 0.25
 """Share of the drive, rate |g|^n over drive, up to which g is followed by a series in it."""
 
+SURELY = 0.89
+"""g takes at least this share of size / drive to a size where its rate is at most NEAR, as the series says."""
+
 FAR = 1e8
 """The same share, from which on the drive is left out: h runs away, or comes back from there."""
 
@@ -116,7 +119,8 @@ def integrated(g: float, drive: float, along: float, against: float, n: float, w
                 return -_size_from_0(since - left, drive, -against, n, -g)
             left += since if g > 0.0 else -since
             edge = (NEAR * drive / abs(along)) ** (1.0 / n) if along != 0.0 else np.inf
-            whole = _width_from_0(edge, math.copysign(NEAR, along), drive, n)
+            short = left * drive <= SURELY * edge
+            whole = left if short else _width_from_0(edge, math.copysign(NEAR, along), drive, n)
             if left <= whole:
                 return min(_size_from_0(left, drive, along, n, edge), bound)
             g = edge

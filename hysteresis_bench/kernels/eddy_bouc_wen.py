@@ -33,7 +33,7 @@ def eddy_bouc_wen(
     """
     samples, columns = u.shape
     swarm = d.size
-    length, _ = paths(u)
+    length = paths(u)
     v = np.empty((samples, swarm))
     for first in range(0, swarm, GROUPS * LANES):
         work = np.zeros((min(GROUPS, (swarm - first + LANES - 1) // LANES), ROWS * LANES))
