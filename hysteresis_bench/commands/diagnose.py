@@ -17,6 +17,7 @@ from hysteresis_bench.commands.terminal.console import open_option, plain_consol
 
 if TYPE_CHECKING:
     from rich.console import Console
+    from rich.table import Table
 
     from hysteresis_bench.data.layout import Layout
     from hysteresis_bench.diagnosis.findings.result import Diagnosis
@@ -157,6 +158,22 @@ def _written(folder: Path, found: Diagnosis) -> list[Path]:
     return [path]
 
 
+def candidates_table(found: Diagnosis) -> Table:
+    """Every effect that these records can show, by its whole name however narrow the terminal."""
+    from rich.table import Column, Table
+
+    rows = [row for row in found.candidates if row.applicable]
+    first = Column("effect", min_width=max((len(row.effect) for row in rows), default=0))
+    table = Table(first, "", "sure", "RMSE", "left out", "p", "tied with", box=None, pad_edge=False)
+    for row in rows:
+        mark = "adopted" if row.adopted else "stand-in" if row.stand_in else "at its bound" if row.at_bound else ""
+        told = one.probability if (one := found.certainty.get(row.effect)) else None
+        sure = "" if told is None else f"{told:.0%}"
+        numbers = sure, f"{row.rmse:.4g}", f"{row.cv_rmse:.4g}", f"{row.p:.2g}"
+        table.add_row(row.effect, mark, *numbers, ", ".join(row.tied_with), style="bold" if row.adopted else "")
+    return table
+
+
 def print_diagnosis(found: Diagnosis, console: Console) -> None:
     """The verdict, before and after, the candidates, the tests in words, the advice."""
     from rich.markup import escape
@@ -181,14 +198,7 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     table.add_row("noise", f"{found.noise.floor:.4g}", "")
     console.print(table)
 
-    table = Table("effect", "", "sure", "RMSE", "left out", "p", "tied with", box=None, pad_edge=False)
-    for row in (row for row in found.candidates if row.applicable):
-        mark = "adopted" if row.adopted else "stand-in" if row.stand_in else "at its bound" if row.at_bound else ""
-        told = one.probability if (one := found.certainty.get(row.effect)) else None
-        sure = "" if told is None else f"{told:.0%}"
-        numbers = sure, f"{row.rmse:.4g}", f"{row.cv_rmse:.4g}", f"{row.p:.2g}"
-        table.add_row(row.effect, mark, *numbers, ", ".join(row.tied_with), style="bold" if row.adopted else "")
-    console.print(table)
+    console.print(candidates_table(found))
     for row in (row for row in found.candidates if not row.applicable):
         console.print(f"{row.effect}: not applicable: {escape(row.reason)}", highlight=False, style="dim")
 
