@@ -119,7 +119,8 @@ def mended(work: Array, lanes: np.uint64, n: float) -> bool:
             mirror = 1.0 if drive >= 0.0 else -1.0
             toward = mirror if work[STEP + j] >= 0.0 else -mirror
             g, free, width = toward * work[OLD + j], toward * new, abs(work[STEP + j])
-            if lost or g < 0.0 < free or (g == 0.0 and n > 1.0):
+            onward = g != 0.0 and (g < 0.0) == (free < 0.0)  # else a step for n > 1 went from rest, or past a pole
+            if lost or g < 0.0 < free or (n > 1.0 and not onward):
                 free = grown(g, abs(drive), beta + mirror * gamma, beta - mirror * gamma, n, width, bound)
             work[H + j] = toward * min(max(free, -bound), bound)
             if lost or g <= 0.0 or free <= 0.0:

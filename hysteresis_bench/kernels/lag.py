@@ -11,7 +11,6 @@ tau = 0 gives exp(-x) = 0 and a deviation of exactly 0, so that v = u to the las
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from numba import njit
@@ -81,11 +80,10 @@ def _late(u, weights, work, row, lanes, swarm, lags, v):  # type: ignore[no-unty
             work[NOW + j] = x
             work[CHANGE + j] = change
     else:
-        before = row - swarm
         for j in range(lanes):
             now = u[row + j]
+            work[CHANGE + j] = now - work[NOW + j]
             work[NOW + j] = now
-            work[CHANGE + j] = now - u[before + j]
     for j in range(lanes):
         total = work[NOW + j] if weights else 0.0
         for k in range(lags):
@@ -99,10 +97,9 @@ def _late(u, weights, work, row, lanes, swarm, lags, v):  # type: ignore[no-unty
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _lags(time, u, weights, time_constants, each, lags):  # type: ignore[no-untyped-def]
+def _lags(time, u, weights, time_constants, v, each, lags):  # type: ignore[no-untyped-def]
     """lags : at least as many as there are; a constant, or no loop is vectorised"""
     samples, swarm = u.shape[0], time_constants.shape[1]
-    v = np.empty((samples, swarm))
     inputs, outputs, wide = u.ravel(), v.reshape(samples * swarm), np.uint64(swarm)
     for first in range((swarm - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
         used = min(LANES, swarm - first)
@@ -112,6 +109,7 @@ def _lags(time, u, weights, time_constants, each, lags):  # type: ignore[no-unty
         for k in range(weights.shape[0]):
             rows[6 + 4 * k, :used] = weights[k, first : first + used]
         for j in range(first, first + used):
+            work[NOW + np.uint64(j - first)] = u[0, j if u.shape[1] > 1 else 0]
             v[0, j] = u[0, j if u.shape[1] > 1 else 0]
         known = 0.0
         for i in range(1, samples):
@@ -122,48 +120,50 @@ def _lags(time, u, weights, time_constants, each, lags):  # type: ignore[no-unty
                     _decays(step, time_constants[k, first : first + used], rows[3 + 4 * k], rows[4 + 4 * k])
             lanes = np.uint64(full if i + 1 < samples else used)
             _late(inputs, each, work, np.uint64(i * swarm + first), lanes, wide, lags, outputs)
-    return v
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _five(time: Array, u: Array, weights: Array, time_constants: Array) -> Any:
-    return _lags(time, u, weights, time_constants, False, 5)
+def _five(time: Array, u: Array, weights: Array, time_constants: Array, v: Array) -> None:
+    _lags(time, u, weights, time_constants, v, False, 5)
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _any(time: Array, u: Array, weights: Array, time_constants: Array) -> Any:
-    return _lags(time, u, weights, time_constants, False, time_constants.shape[0])
+def _any(time: Array, u: Array, weights: Array, time_constants: Array, v: Array) -> None:
+    _lags(time, u, weights, time_constants, v, False, time_constants.shape[0])
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _seven_weighted(time: Array, u: Array, weights: Array, time_constants: Array) -> Any:
-    return _lags(time, u, weights, time_constants, True, 7)
+def _seven_weighted(time: Array, u: Array, weights: Array, time_constants: Array, v: Array) -> None:
+    _lags(time, u, weights, time_constants, v, True, 7)
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _any_weighted(time: Array, u: Array, weights: Array, time_constants: Array) -> Any:
-    return _lags(time, u, weights, time_constants, True, time_constants.shape[0])
+def _any_weighted(time: Array, u: Array, weights: Array, time_constants: Array, v: Array) -> None:
+    _lags(time, u, weights, time_constants, v, True, time_constants.shape[0])
 
 
-def late_response(time: Array, u: Array, share: Array, time_constants: Array) -> Array:
+def late_response(time: Array, u: Array, share: Array, time_constants: Array, out: Array | None = None) -> Array:
     """A share of the signal arrives late, through equally weighted lags: u + share mean_k(lag_k(u) - u).
 
     time : float64[samples]                               strictly increasing, any spacing
     u : float64[samples, 1] or float64[samples, swarm]    linear between its samples
     share : float64[swarm]                                0: the signal itself, to the last bit
     time_constants : float64[lags, swarm]                 >= 0, unit of time; fastest for five lags at most
+    out : float64[samples, swarm]                         where the result goes, a new array by default; may be u
     -> float64[samples, swarm]                            unit of u; equal to u at the first sample and in rest
     """
-    lags = time_constants.shape[0]
-    late: Array = (_five if lags <= 5 else _any)(time, u, share[None] / lags, time_constants)
+    lags, swarm = time_constants.shape
+    late = np.empty((time.size, swarm)) if out is None else out
+    (_five if lags <= 5 else _any)(time, u, share[None] / lags, time_constants, late)
     return late
 
 
-def weighted_lags(time: Array, u: Array, weights: Array, time_constants: Array) -> Array:
+def weighted_lags(time: Array, u: Array, weights: Array, time_constants: Array, out: Array | None = None) -> Array:
     """Parts of the signal arrive late, through lags of weights of their own: u + sum_k weight_k (lag_k(u) - u).
 
     The arguments as in `late_response`; weights : float64[lags, swarm], of either sign; all 0: u to the last bit;
     fastest for seven lags at most
     """
-    late: Array = (_seven_weighted if len(weights) <= 7 else _any_weighted)(time, u, weights, time_constants)
+    late = np.empty((time.size, weights.shape[1])) if out is None else out
+    (_seven_weighted if len(weights) <= 7 else _any_weighted)(time, u, weights, time_constants, late)
     return late

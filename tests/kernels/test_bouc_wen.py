@@ -137,6 +137,29 @@ def test_one_input_a_particle_equals_a_shared_input():
         np.testing.assert_allclose(together[:, j], alone[:, 0], rtol=0, atol=1e-11 * np.ptp(alone))
 
 
+@pytest.mark.parametrize("n", [1.0, 2.0, 3.0])
+@pytest.mark.parametrize("swarm", [1, 3, 4, 65, 4097])
+def test_a_particle_is_the_same_in_a_swarm_of_any_size(n, swarm):
+    rng = np.random.default_rng(7)
+    parameters = [rng.uniform(low, 2, swarm) for low in (-1, 0.1, -0.1, 0.2)]
+    for u in (sine(60), np.cumsum(rng.normal(0.0, 0.2, (60, swarm)), axis=0)):
+        together = bouc_wen(u, *parameters) if n == 1.0 else bouc_wen_power(u, *parameters, n)
+        for j in {0, swarm // 2, swarm - 1}:
+            own, one = np.ascontiguousarray(u[:, [j % u.shape[1]]]), [values[[j]] for values in parameters]
+            alone = bouc_wen(own, *one) if n == 1.0 else bouc_wen_power(own, *one, n)
+            atol = (1e-12 if n == 1.0 else 1e-9) * np.ptp(alone)
+            np.testing.assert_allclose(together[:, j], alone[:, 0], rtol=0, atol=atol)
+
+
+def test_a_power_of_2_is_exact_on_every_increment():
+    """dh/du = A - rate h^2 from rest: h = sqrt(A / rate) tanh(sqrt(A rate) u)."""
+    alpha, beta, gamma, d = PUBLISHED
+    u = np.linspace(0.0, 3.0, 40)[:, None]
+    rate, drive = beta + gamma, alpha * d
+    expected = d * u[:, 0] - np.sqrt(drive / rate) * np.tanh(np.sqrt(drive * rate) * u[:, 0])
+    assert np.abs(bouc_wen_power(u, *columns(PUBLISHED), 2.0)[:, 0] - expected).max() < 1e-14
+
+
 def test_saturates_at_the_closed_form_height():
     alpha, beta, gamma, d = PUBLISHED
     u = np.linspace(0, 100, 2000)[:, None]

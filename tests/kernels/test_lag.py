@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
-from hysteresis_bench.kernels.lag import lag, late_response
+from hysteresis_bench.kernels.lag import lag, late_response, weighted_lags
 
 TAUS = np.array([0.0, 1e-9, 0.003, 0.05, 0.4, 7.0, 1e12])
 
@@ -94,6 +94,20 @@ def test_a_swarm_is_its_columns_with_shared_and_with_own_inputs():
     for j in range(TAUS.size):
         assert np.array_equal(shared[:, j], lag(time, own[:, :1], TAUS[j : j + 1])[:, 0])
         assert np.array_equal(each[:, j], lag(time, own[:, j : j + 1], TAUS[j : j + 1])[:, 0])
+
+
+@pytest.mark.parametrize("swarm", [1, 3, 50, 130])
+@pytest.mark.parametrize("lags", [1, 5, 7, 9])
+def test_late_responses_in_place_are_those_in_a_new_array(swarm, lags):
+    rng = np.random.default_rng(5)
+    time, u = np.cumsum(rng.uniform(0.1, 1.0, 40)), rng.normal(size=(40, swarm))
+    weights, taus = rng.normal(size=(lags, swarm)), 10.0 ** rng.uniform(-3.0, 2.0, (lags, swarm))
+    for late, share in ((late_response, weights[0]), (weighted_lags, weights)):
+        expected, here = late(time, u, share, taus), u.copy()
+        assert late(time, here, share, taus, here) is here
+        np.testing.assert_array_equal(here, expected)
+    mixed = u + sum(weights[k] * (lag(time, u, taus[k]) - u) for k in range(lags))
+    np.testing.assert_allclose(weighted_lags(time, u, weights, taus), mixed, rtol=0, atol=1e-12)
 
 
 def test_a_late_response_is_a_mixture_of_lags():

@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._hidden import euler_lag, tustin_lag
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import finest_step, longest, unresolved
 
 
@@ -93,7 +94,9 @@ class Creep(Effect):
         if not signal.timed:
             return output
         place = np.linspace(-0.5, 0.5, self.relaxations)[:, None]
-        return late_response(signal.time, output, p.share, p.time_constant * 10.0 ** (place * p.decades))
+        constants = p.time_constant * 10.0 ** (place * p.decades)
+        output = own(output, signal)
+        return late_response(signal.time, output, p.share, constants, output)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Mean time constants from a sampling step to the duration of the longest record."""

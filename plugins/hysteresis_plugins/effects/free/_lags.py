@@ -38,11 +38,11 @@ def weights(p: Any) -> Array:
     return np.stack([getattr(p, f"weight{k}") for k in range(1, LAGS + 1)])
 
 
-def late(time: Array, values: Array, p: Any) -> Array:
-    """What arrives of a signal, (samples, swarm)."""
+def late(time: Array, values: Array, p: Any, out: Array | None = None) -> Array:
+    """What arrives of a signal, (samples, swarm); out : as in `weighted_lags`"""
     from hysteresis_bench.kernels.lag import weighted_lags
 
-    return weighted_lags(time, values, weights(p), constants(p))
+    return weighted_lags(time, values, weights(p), constants(p), out)
 
 
 def box(records: Sequence[Record]) -> tuple[Parameter, ...]:

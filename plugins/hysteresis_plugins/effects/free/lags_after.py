@@ -10,6 +10,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import unresolved
 from hysteresis_plugins.effects.free._lags import PARAMETERS, RANGES, box, late, step_response
 
@@ -32,7 +33,10 @@ class LagsAfter(FreeForm):
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = inner(signal)
-        return late(signal.time, output, p) if signal.timed else output
+        if not signal.timed:
+            return output
+        output = own(output, signal)
+        return late(signal.time, output, p, output)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Time constants from half a sampling step to the duration of the longest record."""
