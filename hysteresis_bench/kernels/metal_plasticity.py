@@ -32,8 +32,8 @@ YIELD, Q, B, D, A, S_1, GAMMA_1, S_2, GAMMA_2 = range(9)
 
 
 @njit(cache=True, error_model="numpy")
-def flowed(stress: Array, step: float, p: Array) -> None:
-    """Goes on by a strain of `step`.
+def flowed(stress: Array, step: float, p: Array) -> float:
+    """The stress after a strain of `step`, over Young's modulus.
 
     stress : float64[4]    the state: stress, X_1, X_2, all over Young's modulus, and the plastic path; written
     p : float64[9]         rows as named above
@@ -45,7 +45,7 @@ def flowed(stress: Array, step: float, p: Array) -> None:
     excess = tried - X_1 - X_2 - size
     if excess <= 0.0:
         stress[0] += step
-        return
+        return stress[0]
     flow, low, high = 0.0, 0.0, np.inf
     new_1, new_2 = X_1, X_2
     for _ in range(MOST_STEPS):
@@ -69,6 +69,7 @@ def flowed(stress: Array, step: float, p: Array) -> None:
     stress[1] = s * new_1
     stress[2] = s * new_2
     stress[3] = path + flow
+    return stress[0]
 
 
 @njit(cache=True, error_model="numpy")
@@ -87,6 +88,5 @@ def metal_plasticity(u: Array, parameters: Array) -> Array:
         column = j if columns > 1 else 0
         p, state = parameters[:, j].copy(), np.zeros(4)
         for i in range(1, samples):
-            flowed(state, u[i, column] - u[i - 1, column], p)
-            out[i, j] = state[0]
+            out[i, j] = flowed(state, u[i, column] - u[i - 1, column], p)
     return out

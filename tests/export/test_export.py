@@ -42,14 +42,14 @@ LAWS = {
     **{
         law: dict(registry.load("models", law).loaded.example.parameters)
         for law in (
-            "bouc-wen-generalized", "dahl", "energy-based", "ferroelectric", "maxwell-slip", "prandtl-ishlinskii",
-            "prandtl-ishlinskii-modified", "preisach",
+            "bouc-wen-generalized", "chaboche", "dahl", "energy-based", "ferroelectric", "folz-filiatrault",
+            "maxwell-slip", "prandtl-ishlinskii", "prandtl-ishlinskii-modified", "preisach", "self-centring",
         )
     },
     "oscillator": {**MASS, "alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},
     "preisach-hats": {
         "radius": 2.0, "centre": 0.2, "grading": 1.5, "slope": 0.3,
-        **{f"w{k}_{j}": 0.02 * (1 + (3 * k + 5 * j) % 7) for k in range(9) for j in range(1, 17)},
+        **{f"w{k}_{j}": 0.02 * (1 + (3 * k + 5 * j) % 7) for k in range(13) for j in range(1, 25)},
     },
 }  # fmt: skip
 BENDS = {f"bend{k}": 0.1 * (-1) ** k for k in (0, 1, 2, 3, 5, 6, 7)}
