@@ -12,6 +12,7 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.evidence.memory import memory
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
@@ -96,7 +97,9 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     chosen, words = choose(laws, plain, out.blocks)
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
-        words += f" It leaves {left:.2g} times the noise: the law cannot follow these data, or an effect is missing."
+        words += (
+            f" It leaves {rounded(left)} times the noise: the law cannot follow these data, or an effect is missing."
+        )
         words += f" {why}" if (why := why_not(chosen, found, left * floor)) else ""
     if chosen and open_way(thin.records):
         words += f" {OPEN}"

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
@@ -27,5 +28,5 @@ def cannot_follow(model: str, effects: Sequence[str], records: Sequence[Record],
         return ()
     why = why_not(model, structure(views_of(thinned(views))), rmse)
     around = f" with {', '.join(effects)}" if effects else ""
-    told = f"This law cannot follow these data: {model}{around} leaves {rmse / floor:.2g} times the noise."
+    told = f"This law cannot follow these data: {model}{around} leaves {rounded(rmse / floor)} times the noise."
     return (f"{told} {why or 'No structure test says why; `diagnose` looks for an effect that is missing.'}",)

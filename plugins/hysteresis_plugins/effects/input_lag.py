@@ -53,8 +53,8 @@ class InputLag(Effect):
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "transport-delay": (
-            "at one frequency, after the transient, a lag before a rate-independent hysteresis and a delay both only "
-            "shift the loop in time; they differ in how the shift depends on the frequency"
+            "after the transient a lag before a rate-independent hysteresis and a delay both only shift the loop in "
+            "time; they differ in how the shift depends on the frequency"
         ),
         "output-lag": (
             "a small lag before the hysteresis and one after it differ only at second order in frequency times lag, "
