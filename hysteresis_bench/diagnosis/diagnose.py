@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.search import search
-from hysteresis_bench.diagnosis.search.selection import NAMED
+from hysteresis_bench.diagnosis.search.selection import MISFIT, NAMED
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.smooth.smoothing import Rough
@@ -63,9 +63,10 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     found = search(prepared, evidence, question)
     on_step(Step(f"{law}: the records' beginnings"))
     if (spare := only_in_beginnings(found)) is not None:
-        prepared = prepared.without(without_beginnings, _in_mid_loop(spare))
-        evidence = gather(prepared.views)
-        found = search(prepared, evidence, question)
+        later = prepared.without(without_beginnings, _in_mid_loop(spare))
+        again = search(later, gather(later.views), question)
+        if again.best.rmse <= MISFIT * again.selection.floor:
+            prepared, found = later, again
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
     left = remainder(stages.after, found.evidence)

@@ -2,9 +2,9 @@
 
 What it remembers from before a record is in its output until the input has passed the extremes that came before. An
 effect that makes up for that, such as a dead band, is needed there and nowhere else: once the beginnings no longer
-count, the system without it leaves no more than the noise, and the nested-model test does not ask for it. Where nothing
-makes up for it, a fit to the rest alone leaves less by an F test. Then the beginnings become history,
-simulated and not scored, and the search begins anew.
+count, the system without it leaves little more than the noise, and the nested-model test does not ask for it. Where
+nothing makes up for it, a fit to the rest alone leaves less by an F test. Then the beginnings become history, simulated
+and not scored, and the search begins anew; where it comes down to about the noise, that is what is told.
 """
 
 from __future__ import annotations
@@ -18,13 +18,17 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.diagnosis.search.selection import LEVEL, MATTERS, MISFIT, SHARE
+from hysteresis_bench.diagnosis.search.selection import LEVEL, MATTERS
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.signals import Record
 
 NEAR = 0.05
 """Share of its range by which the input may miss its extremes. With half and with twice of it four made cases had the
 same answer."""
+
+
+LEFT = 0.2
+"""Of the excess over the noise, what may be left without the beginnings: an effect that they hide may be in it."""
 
 
 def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
@@ -37,10 +41,9 @@ def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
     later = Fitter(replace(thin.stack, records=records), thin.seed)
 
     def gone(rmse: float, with_beginnings: float) -> bool:
-        """Is what was more than the noise no more than it now?"""
+        """Is most of what was more than the noise left out with them?"""
         excess = [x**2 - floor**2 for x in (rmse, with_beginnings)]
-        clear = with_beginnings > MATTERS * max(rmse, floor)
-        return clear and rmse <= MISFIT * floor and excess[0] <= SHARE * excess[1]
+        return with_beginnings > MATTERS * max(rmse, floor) and excess[0] <= LEFT * excess[1]
 
     left, current, spare = list(found.without), best, list[str]()
     while left:
