@@ -20,6 +20,9 @@ from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, grown, relaxed
 SERIES_LIMIT = 0.25
 """Largest |rate w| for the series of (1 - exp(-x)) / x below; its first neglected term is 2.4e-14 there."""
 
+APART = 1e-9
+"""Ratio of beta to |gamma| from which no rounding takes h from its bound to where it runs away."""
+
 LANES = 64
 """Particles that are integrated side by side."""
 
@@ -55,10 +58,13 @@ def paths(u: Array) -> Array:
 
 @njit(cache=True, error_model="numpy")
 def bounded(alpha: Array, beta: Array, gamma: Array, d: Array) -> bool:
-    """Does h have a bound for all particles? Then it never comes near RUNAWAY."""
+    """Does h have a bound for all particles? Then it never comes near RUNAWAY.
+
+    With beta = 0 the bound is where h begins to run away, and rounding decides.
+    """
     for k in range(d.size):
         along = beta[k] + gamma[k] if alpha[k] * d[k] >= 0.0 else beta[k] - gamma[k]
-        if not (beta[k] >= 0.0 and along >= 0.0):
+        if not (beta[k] > APART * abs(gamma[k]) and along >= 0.0):
             return False
     return True
 

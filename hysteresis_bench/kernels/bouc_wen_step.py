@@ -119,8 +119,8 @@ def integrated(g: float, drive: float, along: float, against: float, n: float, w
                 return -_size_from_0(since - left, drive, -against, n, -g)
             left += since if g > 0.0 else -since
             edge = (NEAR * drive / abs(along)) ** (1.0 / n) if along != 0.0 else np.inf
-            short = left * drive <= SURELY * edge
-            whole = left if short else _width_from_0(edge, math.copysign(NEAR, along), drive, n)
+            near = left * drive <= SURELY * edge
+            whole = left if near else _width_from_0(edge, math.copysign(NEAR, along), drive, n)
             if left <= whole:
                 return min(_size_from_0(left, drive, along, n, edge), bound)
             g = edge

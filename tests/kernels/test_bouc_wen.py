@@ -183,6 +183,13 @@ def test_is_finite_whatever_the_signs_and_sizes(kernel, samples):
         assert np.isfinite(v).all()
 
 
+def test_is_finite_where_the_bound_is_where_it_runs_away():
+    """beta = 0: after a long increment h is at rest at the edge of running away, and the next one takes it along."""
+    u = 551.6 * np.array([0.0, 0.0, -1.0, 1.0, 0.0, -1.0, 0.0, 0.0, 1.0, -1.0] * 3)[:, None]
+    v = bouc_wen(u, *(np.array([value]) for value in (2.5, 0.0, 3.8, 4.63)))
+    assert np.all(np.isfinite(v))
+
+
 def test_changes_no_argument():
     u, parameters = sine(50), columns(PUBLISHED, PUBLISHED)
     before = [values.copy() for values in (u, *parameters)]
