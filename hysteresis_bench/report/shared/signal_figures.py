@@ -77,11 +77,13 @@ def measured_loops(
     records = list(rows.groupby(["record", "role"], sort=False))
     if not 1 < len(records) <= most:
         return None
+    cycles = {record: _few_cycles(part["input"].to_numpy(dtype=float)) for (record, _), part in records}
+    caption += "".join(f" {record}:{told}" for record, (_, told) in cycles.items() if told)
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         for ((record, _), part), colour in zip(records, SERIES, strict=False):
-            few = _only(part, _few_cycles(part["input"].to_numpy(dtype=float))[0])
+            few = _only(part, cycles[record][0])
             axes.plot(few["input"], few["output"], color=colour, linewidth=1.0, label=record)
         axes.axhline(0, color=MUTED, linewidth=0.5)
         axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
