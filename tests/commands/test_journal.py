@@ -10,7 +10,8 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
-from hysteresis_bench.commands.data.journal import FILE, Journal, digest, journal
+from hysteresis_bench.commands.data.journal import Journal, digest, journal
+from hysteresis_bench.commands.outputs import UNFINISHED
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.law import Law
@@ -77,7 +78,7 @@ def test_killed_halfway_it_ends_in_the_same_file(here, monkeypatch, asked, after
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(ROOT / "tests" / "test_plugins")))}
     killed = [sys.executable, "-c", KILLED, str(after), *command, "killed"]
     assert subprocess.run(killed, env=environment, capture_output=True, check=False).returncode == -9
-    assert sorted(path.name for path in (here / "killed").iterdir()) == [FILE]
+    assert sorted(path.name for path in (here / "killed").iterdir()) == [UNFINISHED]
 
     again = CliRunner().invoke(main, [*command, "killed"])
     assert again.exit_code == 0, again.output
@@ -96,10 +97,10 @@ def test_stopped_while_it_writes_its_page_it_may_write_over_what_it_had_written(
 
         stopping.setattr("hysteresis_bench.report.fit.folder.write_fit_page", stopped)
         CliRunner().invoke(main, ["fit", "loop.csv", "--model", "polynomial"])
-    assert {"model.json", FILE} <= {path.name for path in (here / "loop-fit").iterdir()}
+    assert {"model.json", UNFINISHED} <= {path.name for path in (here / "loop-fit").iterdir()}
     again = CliRunner().invoke(main, ["fit", "loop.csv", "--model", "polynomial"])
     assert again.exit_code == 0, again.output
-    assert FILE not in {path.name for path in (here / "loop-fit").iterdir()}
+    assert UNFINISHED not in {path.name for path in (here / "loop-fit").iterdir()}
 
 
 def test_stopped_by_ctrl_c_it_says_what_is_kept(here, monkeypatch):
@@ -112,14 +113,14 @@ def test_stopped_by_ctrl_c_it_says_what_is_kept(here, monkeypatch):
     done = CliRunner().invoke(main, ["diagnose", "loop.csv", "--model", "polynomial", "--jobs", "1"])
     assert done.exit_code == 130
     told = " ".join(done.output.split())
-    assert f"3 finished fits are kept in loop-diagnosis/{FILE}. Run it again to continue." in told
+    assert f"3 finished fits are kept in loop-diagnosis/{UNFINISHED}. Run it again to continue." in told
 
 
 def test_answers_come_back_to_the_last_bit(tmp_path):
     known, law = hypothesis(), Law("dahl", "", 0.1 + 0.2, np.nan, np.arange(3.0) / 7.0, 5, 1.5)
-    kept = Journal(tmp_path / FILE, "of")
+    kept = Journal(tmp_path / UNFINISHED, "of")
     kept["a", known], kept["b", 1.0] = known, law
-    again = Journal(tmp_path / FILE, "of")
+    again = Journal(tmp_path / UNFINISHED, "of")
     found, found_law = again.get(("a", known)), again.get(("b", 1.0))
     assert (found.names, found.values, found.at_bound) == (known.names, known.values, known.at_bound)
     assert np.array_equal(found.residuals, known.residuals)
@@ -130,7 +131,7 @@ def test_answers_come_back_to_the_last_bit(tmp_path):
 
 
 def test_what_is_damaged_is_told_and_fitted_again(tmp_path):
-    kept = Journal(tmp_path / FILE, "of")
+    kept = Journal(tmp_path / UNFINISHED, "of")
     kept["a",], kept["b",] = hypothesis(), hypothesis(0.3)
     text = kept.path.read_text(encoding="utf-8")
     kept.path.write_text(text[:-20], encoding="utf-8")  # killed while it wrote
@@ -160,7 +161,7 @@ def test_a_question_that_is_refused_leaves_nothing(tmp_path):
 
 @pytest.mark.parametrize("jobs", [1, 2])
 def test_workers_ask_what_is_kept_first(tmp_path, jobs):
-    kept, told = Journal(tmp_path / FILE, "of"), []
+    kept, told = Journal(tmp_path / UNFINISHED, "of"), []
     fitter = Squares()
     kept[fitter, "square", 2.0] = 4.5
     with Workers(fitter, jobs, lambda step: told.append(step.done), kept) as workers:

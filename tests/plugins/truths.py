@@ -38,3 +38,11 @@ def solved(model, one, **known):
 def held(model, records, values):
     """Names of parameters that lie outside the box of these records."""
     return [q.name for q in model.box(records) if not q.lower <= values[q.name] <= q.upper]
+
+
+def assert_found_again(law, known, linear):
+    """The linear parameters are solved for to the truth, which lies in the box that the record gives."""
+    one = record(law, waves(), **known, **linear)
+    found = solved(law, one, **known)
+    np.testing.assert_allclose([found[name] for name in linear], list(linear.values()), rtol=1e-6)
+    assert not held(law, [one], {**known, **linear})

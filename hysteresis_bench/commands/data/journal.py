@@ -28,7 +28,6 @@ from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.origin import processor, versions
 
-FILE = UNFINISHED
 ANSWERS: Mapping[str, type] = {"Hypothesis": Hypothesis, "Law": Law, "Contender": Contender}
 
 
@@ -38,7 +37,7 @@ def journal(folder: Path, asked: object) -> Iterator[Journal]:
 
     asked : all that the answers depend on, but the code
     """
-    kept = Journal(folder / FILE, digest((made_with(), asked)))
+    kept = Journal(folder / UNFINISHED, digest((made_with(), asked)))
     try:
         yield kept
     except UserError:
