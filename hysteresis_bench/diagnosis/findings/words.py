@@ -74,18 +74,27 @@ class Outcome:
 
     @property
     def unexplained(self) -> bool:
-        return self.left.matters or not self.found.follows or not self.carries_over or self.cause is not None
+        left = self.left.matters or self.leaves_much
+        return left or not self.found.follows or not self.carries_over or self.cause is not None
+
+    @property
+    def leaves_much(self) -> bool:
+        """Is much more left than the noise, slow noise included, on what was fitted or on what was held out?"""
+        fitted, held_out = self.leaves
+        noise = fitted if self.left.slow else 1.0
+        return max(fitted, held_out) > WRONG * noise
 
     @property
     def doubted(self) -> bool:
         """Is so much left that the names may stand in for what is wrong with the law?"""
-        much = max(self.leaves) > WRONG and not self.left.slow
-        return much and self.doubt == Doubt()
+        return self.leaves_much and self.doubt == Doubt()
 
     @property
     def doubtful(self) -> bool:
-        """May the names be wrong, because much is left, or because they do not help where they were not fitted?"""
-        return self.doubted or not self.carries_over
+        """May the names be wrong, because much is left, or because they do not help where they were not fitted? That
+        all laws need them on what was fitted is no answer to the latter."""
+        fitted, held_out = self.leaves
+        return self.doubted or not self.carries_over or held_out > WRONG * max(fitted, 1.0)
 
     @property
     def leaves(self) -> tuple[float, float]:
@@ -129,6 +138,8 @@ def headline(outcome: Outcome) -> str:
         said += " Terms that describe what was left, without explaining it, have been added."
     if outcome.doubt != Doubt():
         said += f" {' '.join(_of_the_law(outcome))}"
+    elif outcome.leaves[0] <= WRONG < outcome.leaves[1] and outcome.leaves_much:
+        said += f" What was held out is missed by {rounded(outcome.leaves[1])} times the noise: something is lacking."
     elif outcome.unexplained:
         said += " Something is left that no effect explains."
     return said

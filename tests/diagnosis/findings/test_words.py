@@ -7,8 +7,8 @@ from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
 
 
-def outcome_of(adopted, needs, rmse=0.3):
-    stage = Of(held_out=None, fitted=Of(rmse=rmse))
+def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False):
+    stage = Of(held_out=None if held_out is None else Of(rmse=held_out), fitted=Of(rmse=rmse))
     evidence = Of(noise=Of(floor=0.1), floor=0.1)
     final = Of(names=frozenset(), at_bound=(), values={})
     full = Of(stack=Of(records=(), model=Of(advice=lambda _: ())))
@@ -18,10 +18,10 @@ def outcome_of(adopted, needs, rmse=0.3):
         adopted=adopted,
         found=Of(follows=True, evidence=evidence, final=final, full=full, given_up=None),
         ties=(),
-        left=Of(matters=True, slow=False),
+        left=Of(matters=not slow and rmse > 0.11, slow=slow),
         units={"output": "um"},
         model="dahl",
-        doubt=Doubt(agreement=Agreement(needs, dict.fromkeys(needs, 0.3), {})),
+        doubt=Doubt(agreement=Agreement(needs, dict.fromkeys(needs, 0.3), {})) if needs else Doubt(),
         alone=False,
     )
 
@@ -48,3 +48,24 @@ def test_a_law_that_comes_down_to_the_noise_is_not_said_to_fail():
     far, near = (" ".join(warnings(outcome_of(("input-lag",), needs, rmse=rmse))) for rmse in (0.3, 0.1))
     assert "The final system still leaves 3 times the noise" in far
     assert "still leaves" not in near
+
+
+def test_what_does_not_predict_the_held_out_records_is_not_said_to_explain_the_data():
+    sound = outcome_of(("creep",), {}, rmse=0.1, held_out=0.12)
+    assert not sound.unexplained
+    assert not sound.doubtful
+    missed = outcome_of(("creep",), {}, rmse=0.1, held_out=2.1)
+    assert missed.unexplained
+    assert missed.doubtful
+    assert "may lack creep" in headline(missed)
+    assert headline(missed).endswith("What was held out is missed by 21 times the noise: something is lacking.")
+    noisy = outcome_of(("creep",), {}, rmse=0.3, held_out=0.35, slow=True)
+    assert not noisy.unexplained, "slow noise is in both alike"
+    assert not noisy.doubtful
+    assert outcome_of(("creep",), {}, rmse=0.3, held_out=2.1, slow=True).unexplained
+
+
+def test_agreement_on_what_was_fitted_does_not_vouch_for_names_that_fail_on_what_was_held_out():
+    needs = {"dahl": ("input-lag",), "bouc-wen": ("input-lag",), "lugre": ("input-lag",)}
+    assert not outcome_of(("input-lag",), needs, rmse=0.3, held_out=0.35).doubtful
+    assert outcome_of(("input-lag",), needs, rmse=0.12, held_out=1.6).doubtful
