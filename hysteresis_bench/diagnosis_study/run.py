@@ -58,7 +58,7 @@ def run_diagnosis_study(
     tickets = [
         CaseTicket(content, bench.name, number)
         for bench in study.bench
-        for number in range((trials or study.trials) * bench.share)
+        for number in bench.numbers(trials or study.trials)
     ]
     missing = [ticket for ticket in tickets if not is_finished(folder, ticket)]
     done = len(read_cases(folder))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, PositiveInt
+from pydantic import BeforeValidator, Field, NonNegativeInt, PositiveInt
 
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import DrivenRig
@@ -30,6 +30,7 @@ class BenchSpec(Strict):
     measure : where effects are tied, the advised experiment is carried out and what it settles is counted; that costs
         another diagnosis
     share : cases of this bench for each of the study's trials
+    first : number of the first case: what a case hides goes by its number, and lower ones may have been used before
     """
 
     name: str
@@ -43,6 +44,11 @@ class BenchSpec(Strict):
     fresh: list[str] = []
     measure: bool = False
     share: PositiveInt = 1
+    first: NonNegativeInt = 0
+
+    def numbers(self, trials: int) -> range:
+        """Of the cases."""
+        return range(self.first, self.first + trials * self.share)
 
 
 class DiagnosisStudy(Strict):

@@ -38,6 +38,12 @@ fresh = ["stairs"]
 """
 
 
+def test_cases_of_a_bench_begin_where_it_says(tmp_path):
+    (file := tmp_path / "small.toml").write_text(TEXT + "share = 2\nfirst = 40\n", encoding="utf-8")
+    (bench,) = read_diagnosis_study(file)[0].bench
+    assert list(bench.numbers(3)) == [40, 41, 42, 43, 44, 45]
+
+
 def test_every_hidden_effect_must_be_named_or_tied():
     assert compared(["creep", "drift"], ["drift", "creep"], {}) == (["creep", "drift"], [], [], [])
     assert compared(["transport-delay"], ["input-lag"], {"input-lag": {"transport-delay"}}) == (
