@@ -100,7 +100,7 @@ def told_apart(ours: statistics.Sample, theirs: statistics.Sample) -> bool:
     differences = statistics.ranks.differences(ours.practical, theirs.practical)
     averages = 0.5 * (differences[:, None] + differences[None, :])
     if np.mean(np.abs(averages) <= statistics.REGION) < 0.1:  # too few for the region to be favoured
-        return statistics.a12_interval(ours.instances, theirs.instances, statistics.TIE)[0] != 0.5
+        return statistics.mean_a12(ours.instances, theirs.instances, statistics.TIE) != 0.5
     return statistics.compare_pairs([(ours, theirs)])[0].verdict in ("better", "worse")
 
 

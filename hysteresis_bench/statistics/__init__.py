@@ -16,7 +16,7 @@ from hysteresis_bench.statistics.comparison import (
     compare_pairs,
 )
 from hysteresis_bench.statistics.description import ecdf, expected_running_time, quantile, wilson
-from hysteresis_bench.statistics.effect_size import a12, a12_interval, magnitude
+from hysteresis_bench.statistics.effect_size import a12, a12_interval, magnitude, mean_a12
 from hysteresis_bench.statistics.equivalence import REGION, Practical, practical
 from hysteresis_bench.statistics.ranks import ENOUGH, LEVEL, Friedman, friedman, holm, wilcoxon
 from hysteresis_bench.statistics.resampling import median_interval, running_time_interval
@@ -42,6 +42,7 @@ __all__ = [
     "friedman",
     "holm",
     "magnitude",
+    "mean_a12",
     "median_interval",
     "practical",
     "quantile",

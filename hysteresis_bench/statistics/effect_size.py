@@ -35,19 +35,32 @@ def a12(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
     return float(np.mean(found)) if found.size else 0.5
 
 
-def a12_interval(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.0) -> tuple[float, float, float]:
-    """A12 and its 95 % bootstrap interval; a sample is an array of trials an instance, the same instances in the same
-    order. It is [1] within every instance, and the mean of these: instances of other difficulty do not mix.
+def mean_a12(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.0) -> float:
+    """[1] within every instance, and the mean of these: instances of other difficulty do not mix. A sample is an array
+    of trials an instance, the same instances in the same order. 0.5 where there is none."""
+    each = [a12(*pair, tie) for pair in zip(ours, theirs, strict=True)]
+    return float(np.mean(each)) if each else 0.5
 
-    Resampled are the instances; where there is one, the trials of either side.
-    """
-    if len(ours) == 1:
-        found = scores(ours[0], theirs[0], tie)
-        if not found.size:
-            return 0.5, 0.0, 1.0
-        rows, columns = (counts(size, stream) / size for stream, size in enumerate(found.shape))
-        return (float(found.mean()), *percentiles(np.einsum("ri,ij,rj->r", rows, found, columns)))
-    each = np.array([a12(*pair, tie) for pair in zip(ours, theirs, strict=True)])
-    if not each.size:
+
+def a12_interval(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.0) -> tuple[float, float, float]:
+    """`mean_a12` and its 95 % bootstrap interval. Resampled are the instances; where there is one, the trials of either
+    side."""
+    middle = mean_a12(ours, theirs, tie)
+    if not sum(map(len, ours)) or not sum(map(len, theirs)):
         return 0.5, 0.0, 1.0
-    return (float(each.mean()), *percentiles(counts(each.size) @ each / each.size))
+    if len(ours) == 1:
+        return middle, *percentiles(_resampled(ours[0], theirs[0], tie))
+    each = np.array([a12(*pair, tie) for pair in zip(ours, theirs, strict=True)])
+    return middle, *percentiles(counts(each.size) @ each / each.size)
+
+
+def _resampled(ours: Array, theirs: Array, tie: float) -> Array:
+    """(resamples,) A12. In the order of their results, one of ours loses to their first ones, is even with the next and
+    beats the last ones: three sums of how often a resample has each, in place of one for every pair."""
+    order = np.argsort(theirs, kind="stable")
+    found = scores(ours, theirs[order], tie)
+    n, m = found.shape
+    below = np.cumsum(np.pad(counts(m, 1)[:, order], ((0, 0), (1, 0))), axis=1)
+    beaten = m - 0.5 * (below[:, np.sum(found < 0.5, axis=1)] + below[:, np.sum(found < 1.0, axis=1)])
+    resampled: Array = np.sum(counts(n) * beaten, axis=1) / (n * m)
+    return resampled

@@ -23,6 +23,9 @@ PRIOR = 0.5
 """[1] Strength of the prior, one pseudo-observation of no difference."""
 DRAWS = 20_000
 
+AT_ONCE = 1_000_000
+"""Weights that are summed together, so that memory does not grow with the blocks."""
+
 
 @dataclass(frozen=True)
 class Practical:
@@ -40,12 +43,18 @@ def practical(ours: ArrayLike, theirs: ArrayLike, region: float = REGION) -> Pra
     three regions which holds the largest weight of the sums z_i + z_j (Walsh averages, as in the signed-rank test).
     """
     z = np.concatenate([[0.0], differences(ours, theirs)])
-    sums = z[:, None] + z[None, :]
-    weights = _weights(z.size)
-    better, worse = (
-        np.sum((weights @ where.astype(float)) * weights, axis=1) for where in (sums < -2 * region, sums > 2 * region)
-    )
-    shares = np.stack([better, 1.0 - better - worse, worse])
+    order = np.argsort(z, kind="stable")
+    # of the sums with z_i those below the region are with the first of the others in order, those above with the last
+    ranked = z[order]
+    first = np.searchsorted(ranked, -2 * region - ranked, side="left")
+    last = np.searchsorted(ranked, 2 * region - ranked, side="right")
+    shares = np.empty((3, DRAWS))
+    for part in np.array_split(np.arange(DRAWS), max(1, DRAWS * z.size // AT_ONCE)):
+        weights = _weights(z.size)[part[:, None], order]
+        below = np.cumsum(np.pad(weights, ((0, 0), (1, 0))), axis=1)
+        shares[0, part] = np.sum(weights * below[:, first], axis=1)
+        shares[2, part] = np.sum(weights * (below[:, -1:] - below[:, last]), axis=1)
+    shares[1] = 1.0 - shares[0] - shares[2]
     favoured = np.bincount(np.argmax(shares, axis=0), minlength=3) / DRAWS
     return Practical(*map(float, favoured))
 

@@ -61,7 +61,7 @@ def matrices(problem: Problem, labels: Sequence[str]) -> tuple[Array, Array]:
     shares = np.full((len(labels), len(labels)), np.nan)
     apart = np.zeros(shares.shape, dtype=bool)
     for (i, j), found in zip(pairs, p, strict=True):
-        shares[i, j], _, _ = statistics.a12_interval(samples[i].instances, samples[j].instances, statistics.TIE)
+        shares[i, j] = statistics.mean_a12(samples[i].instances, samples[j].instances, statistics.TIE)
         shares[j, i] = 1.0 - shares[i, j]
         apart[i, j] = apart[j, i] = found < statistics.LEVEL
     return shares, apart
