@@ -60,7 +60,7 @@ def _resampled(ours: Array, theirs: Array, tie: float) -> Array:
     order = np.argsort(theirs, kind="stable")
     found = scores(ours, theirs[order], tie)
     n, m = found.shape
-    below = np.cumsum(np.pad(counts(m, 1)[:, order], ((0, 0), (1, 0))), axis=1)
-    beaten = m - 0.5 * (below[:, np.sum(found < 0.5, axis=1)] + below[:, np.sum(found < 1.0, axis=1)])
-    resampled: Array = np.sum(counts(n) * beaten, axis=1) / (n * m)
+    below = np.cumsum(np.pad(np.take(counts(m, 1), order, axis=1), ((0, 0), (1, 0))), axis=1)
+    lost, even = (np.take(below, np.sum(found < score, axis=1), axis=1) for score in (0.5, 1.0))
+    resampled: Array = np.einsum("ri,ri->r", counts(n), m - 0.5 * (lost + even)) / (n * m)
     return resampled
