@@ -43,7 +43,7 @@ class Prepared:
     notes: tuple[str, ...] = ()
 
     def without(self, records: Callable[[Sequence[Record]], tuple[Record, ...]], note: str) -> Prepared:
-        """With less that is scored.  records : from all of them to what they become"""
+        """With records that are scored or read otherwise.  records : from all of them to what they become"""
         dataset = replace(self.dataset, records=records(self.dataset.records))
         return replace(self, dataset=dataset, views=views_of(dataset.fitted), notes=(*self.notes, note))
 

@@ -43,6 +43,10 @@ ARITHMETIC = 1e-10
 """Share of the largest value below which it is no noise but how a computed signal was rounded: the sine of a large
 phase has lost some digits."""
 
+HEARD = 0.2
+"""What the input's noise makes of the output, over the output's own noise, from where it is told, and inputs may be
+smoothed."""
+
 COLOURED = 1.2
 """Repeats that differ by so many times the fast noise make the noise coloured."""
 
@@ -85,11 +89,16 @@ class Noise:
         return self.repeat_rms is not None and self.repeat_rms > COLOURED * max(self.rms, 1e-300)
 
     @property
+    def input_heard(self) -> bool:
+        """The input's noise is a good part of what a perfect model leaves."""
+        return self.through_input > HEARD * self.rms
+
+    @property
     def words(self) -> str:
         told = [f"noise {self.rms:.3g} ± {self.standard_error:.1g}"]
         if self.quantum > 0 and self.rms <= 1.01 * self.quantum / sqrt(12):
             told.append(f"it is the rounding to steps of {self.quantum:.3g}")
-        if self.through_input > 0.2 * self.rms:
+        if self.input_heard:
             told.append(f"noise of the input ({self.input_rms:.3g}) adds {self.through_input:.3g}")
         if self.coloured:
             told.append(f"cycles differ by {self.repeat_rms:.3g}: coloured noise, or something beside the input")

@@ -1,0 +1,36 @@
+"""Smoothed inputs: as much is taken off as their noise has, and corners stay."""
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
+from hysteresis_bench.signals import Record
+
+
+def sine(time):
+    return np.sin(2.0 * np.pi * time) * (1.0 - 0.1 * time)
+
+
+def triangle(time):
+    return 2.0 / np.pi * np.arcsin(np.sin(2.0 * np.pi * time))
+
+
+@pytest.mark.parametrize("drive", [sine, triangle])
+@pytest.mark.parametrize("uneven", [False, True])
+@pytest.mark.parametrize("share", [0.001, 0.01])
+def test_most_of_the_noise_is_taken_off(drive, uneven, share):
+    rng = np.random.default_rng(1)
+    time = np.linspace(0.0, 4.0, 1200)
+    time = np.sort(rng.choice(time, 800, replace=False)) if uneven else time
+    true, noise = drive(time), share * rng.standard_normal(time.size)
+    (smooth,) = with_smooth_inputs([Record(time, true + noise, true)])
+    left = smooth.input - true
+    assert np.sqrt(np.mean(left**2)) < 0.5 * np.sqrt(np.mean(noise**2))
+    assert np.max(np.abs(left)) < 4.0 * share
+
+
+def test_an_input_without_noise_is_left_alone():
+    time = np.linspace(0.0, 3.0, 900)
+    for u in (sine(time), triangle(time), np.zeros(time.size)):
+        record = Record(time, u, u)
+        assert with_smooth_inputs([record]) == (record,)
