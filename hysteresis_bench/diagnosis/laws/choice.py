@@ -26,22 +26,27 @@ from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
 
-def choose(laws: Sequence[Law], plain: float, blocks: Blocks) -> tuple[str, str]:
+def choose(laws: Sequence[Law], plain: float, blocks: Blocks, *, like: bool = False) -> tuple[str, str]:
     """The law's name, and a sentence; the name is "" where no law beats the polynomial.
 
     laws : the best first;  plain : RMSE of the polynomial without memory, as `Law.rmse`
-    blocks : what was left out together
+    blocks : what was left out together;  like : it is like what is asked, and parameters do not weigh
     """
     fitted = [law for law in laws if law.unseen.size]
     if not fitted or fitted[0].rmse >= plain:
         return "", "No law predicts what it did not see better than a cubic polynomial of the input, without memory."
     count, best = int(blocks.block.max()) + 1, fitted[0]
-    chosen = min(fitted, key=lambda law: expected(law, count))
-    told = f"{best.model} predicts best what it did not see: {best.rmse / plain:.3g} of the polynomial's error"
-    if chosen is best:
-        return best.model, f"{told}."
-    return chosen.model, (
-        f"{told}. {chosen.model} is taken, {chosen.rmse / plain:.3g} with {chosen.parameters} parameters in place of "
+    simpler = min(fitted, key=lambda law: expected(law, count))
+    told = f"{best.model} predicts best what it did not see: {best.rmse / plain:.3g} of the polynomial's error."
+    if simpler is best:
+        return best.model, told
+    if like:
+        return best.model, (
+            f"{told} The inputs that are held out are as near to fitted ones as those that it was judged by were: its "
+            f"{best.parameters} parameters, in place of the {simpler.parameters} of {simpler.model}, do not weigh."
+        )
+    return simpler.model, (
+        f"{told} {simpler.model} is taken, {simpler.rmse / plain:.3g} with {simpler.parameters} parameters in place of "
         f"{best.parameters}: with {count} blocks to judge by, a gain by so many more is not expected to carry over to "
         f"other excitations."
     )

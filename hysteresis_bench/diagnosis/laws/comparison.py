@@ -22,6 +22,7 @@ from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_er
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, Laws, both
+from hysteresis_bench.diagnosis.laws.likeness import alike
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
@@ -94,7 +95,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
-    chosen, words = choose(laws, plain, out.blocks)
+    chosen, words = choose(laws, plain, out.blocks, like=alike(seen, out))
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += (

@@ -47,10 +47,12 @@ LAST = 3
 class LeftOut:
     """blocks : which sample is left out with which, and of which fold
     telling : whether enough whole records, or other amplitudes, are predicted; else it is blocks of like excitation
+    whole : numbers of the records that are left out whole; none of a lone one
     """
 
     blocks: Blocks
     telling: bool
+    whole: tuple[int, ...] = ()
 
     def as_good(self, best: Array, other: Array) -> bool:
         """Does a smoother density do as well, so that it is taken? By the paired test over blocks where they can judge;
@@ -85,7 +87,8 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     present, dense = np.unique(fold, return_inverse=True)
     small = [k for k in whole if high[k] - low[k] < SMALLER * span]
     telling = len(records if len(records) > 1 else small) >= FEWEST and whole.size >= FEWEST
-    return LeftOut(Blocks(block, dense.ravel(), present.size), telling)
+    records_out = tuple(whole.tolist()) if len(records) > 1 else ()
+    return LeftOut(Blocks(block, dense.ravel(), present.size), telling, records_out)
 
 
 def last_part(records: Sequence[Record]) -> Array:

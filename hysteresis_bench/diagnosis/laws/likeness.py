@@ -1,0 +1,52 @@
+"""Is what is asked like what was fitted? Then what was left out of the fits is like it too, and tells the law alone.
+
+An input is described by what a law may know of it: its lowest and highest value, as shares of the span of all fitted
+ones, and how fast it moves and how often it goes to and fro, as logarithms. Two are as far apart as the largest
+difference of these. Fitted records that were left out whole are each predicted from others at some distance. Where the
+inputs held out stay in the range of the fitted ones and none is much farther from its nearest fitted one, predicting
+them is no harder than what the laws were judged by. Only inputs are looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.fit.unseen.interval import speed
+from hysteresis_bench.fit.unseen.whole import BEYOND, LeftOut
+from hysteresis_bench.signals import Dataset, Record
+
+FARTHER = 1.5
+"""Times the largest distance at which a fitted record was left out: of inputs evenly apart one is left out as far from
+its neighbours as one that is held out between them, and few are evenly apart."""
+
+
+def alike(dataset: Dataset, out: LeftOut) -> bool:
+    """Is every input that is held out like those left out whole? out : what is left out of the fitted records."""
+    if not (out.telling and out.whole and dataset.held_out):
+        return False
+    inputs = [record.input[record.scored] for record in dataset.fitted]
+    span = float(np.ptp(np.concatenate(inputs)))
+    fitted, asked = (_described(records, span) for records in (dataset.fitted, dataset.held_out))
+    low, high = fitted[:, 0].min() - BEYOND, fitted[:, 1].max() + BEYOND
+    within = bool(np.all((asked[:, 0] >= low) & (asked[:, 1] <= high)))
+    judged = max(_nearest(fitted[k], np.delete(fitted, k, axis=0)) for k in out.whole)
+    return within and max(_nearest(one, fitted) for one in asked) <= FARTHER * judged
+
+
+def _described(records: Sequence[Record], span: float) -> Array:
+    """(records, 4); span : of the fitted inputs, above 0 where records are left out whole"""
+    rows = []
+    for record in records:
+        u = record.input[record.scored]
+        to_and_fro = float(np.sum(np.abs(np.diff(u)))) / (float(np.ptp(u)) or 1.0)
+        rate = speed(record) / span if record.timed else 0.0
+        logarithms = [float(np.log(one)) if one > 0.0 else 0.0 for one in (rate, to_and_fro)]
+        rows.append([float(u.min()) / span, float(u.max()) / span, *logarithms])
+    return np.array(rows)
+
+
+def _nearest(one: Array, others: Array) -> float:
+    return float(np.min(np.max(np.abs(others - one), axis=1)))
