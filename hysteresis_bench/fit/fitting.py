@@ -32,7 +32,7 @@ from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
-from hysteresis_bench.fit.smooth.smoothing import SOLVED, Rough, Smoothing
+from hysteresis_bench.fit.smooth.smoothing import SOLVED, Smoothing, solvable
 from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
@@ -276,7 +276,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
 
 def _smooth(system: System, options: FitOptions) -> bool:
     """Is it solved for? Not where another optimizer than the usual one was asked for."""
-    return isinstance(system.model, Rough) and options.optimizer == registry.SEARCH
+    return solvable(system) and options.optimizer == registry.SEARCH
 
 
 def _notes(problem: Problem, options: FitOptions, repeats: int) -> tuple[str, ...]:

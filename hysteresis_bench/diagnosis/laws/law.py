@@ -19,7 +19,7 @@ from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing
+from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing, solvable
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
 from hysteresis_bench.fit.unseen.whole import last_part, left_out
@@ -128,6 +128,8 @@ class Laws:
     def _reasons(self, fitter: Fitter) -> list[str]:
         system = fitter.stack.system(())
         reasons = [f"{name}: {why}" for name, effect in system.effects if (why := effect.inapplicable(self.records))]
+        if isinstance(system.model, Rough) and not solvable(system):
+            reasons.append("behind these effects its output is not linear in its many weights, which are solved for.")
         samples = sum(record.measured.size for record in self.records)
         count = len(system.parameters)
         if samples <= 2 * count and not isinstance(system.model, Rough):
