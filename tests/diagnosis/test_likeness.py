@@ -32,13 +32,14 @@ AMPLITUDES = [(a, 1.0) for a in (0.25, 0.5, 1.0)]
     ("fitted", "held_out", "expected"),
     [
         (FREQUENCIES, (1.0, 4.0), True),
-        (FREQUENCIES, (1.0, 256.0), False),
+        (FREQUENCIES, (1.0, 24.0), False),
+        ([(1.0, f) for f in (1.0, 1.2, 15.0, 16.0)], (1.0, 4.0), False),
         (AMPLITUDES, (0.75, 1.0), True),
         (AMPLITUDES, (1.5, 1.0), False),
         ([(0.1, 1.0), (1.0, 1.0)], (0.2, 1.0), False),
         ([(1.0, 1.0)], (1.0, 1.0), False),
     ],
-    ids=["between", "much faster", "between amplitudes", "larger", "one left out whole", "a lone record"],
+    ids=["between", "faster", "in a wide gap", "between amplitudes", "larger", "one left out whole", "a lone record"],
 )
 def test_what_is_asked_is_like_what_was_left_out(fitted, held_out, expected):
     assert like(fitted, held_out) == expected

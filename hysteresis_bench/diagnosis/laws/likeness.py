@@ -3,8 +3,8 @@
 An input is described by what a law may know of it: its lowest and highest value, as shares of the span of all fitted
 ones, and how fast it moves and how often it goes to and fro, as logarithms. Two are as far apart as the largest
 difference of these. Fitted records that were left out whole are each predicted from others at some distance. Where the
-inputs held out stay in the range of the fitted ones and none is much farther from its nearest fitted one, predicting
-them is no harder than what the laws were judged by. Only inputs are looked at.
+inputs held out stay in the range and among the speeds of the fitted ones, and none is much farther from its nearest
+one, predicting them is no harder than what the laws were judged by. Only inputs are looked at.
 """
 
 from __future__ import annotations
@@ -14,6 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.fit.unseen.interval import BEYOND as OTHER
 from hysteresis_bench.fit.unseen.interval import speed
 from hysteresis_bench.fit.unseen.whole import BEYOND, LeftOut
 from hysteresis_bench.signals import Dataset, Record
@@ -21,6 +22,10 @@ from hysteresis_bench.signals import Dataset, Record
 FARTHER = 1.5
 """Times the largest distance at which a fitted record was left out: of inputs evenly apart one is left out as far from
 its neighbours as one that is held out between them, and few are evenly apart."""
+
+LOW, HIGH, RATE = range(3)
+"""Columns of a description."""
+FASTER = float(np.log(OTHER))
 
 
 def alike(dataset: Dataset, out: LeftOut) -> bool:
@@ -30,8 +35,10 @@ def alike(dataset: Dataset, out: LeftOut) -> bool:
     inputs = [record.input[record.scored] for record in dataset.fitted]
     span = float(np.ptp(np.concatenate(inputs)))
     fitted, asked = (_described(records, span) for records in (dataset.fitted, dataset.held_out))
-    low, high = fitted[:, 0].min() - BEYOND, fitted[:, 1].max() + BEYOND
-    within = bool(np.all((asked[:, 0] >= low) & (asked[:, 1] <= high)))
+    within = all(
+        np.max(side * asked[:, k]) <= np.max(side * fitted[:, k]) + slack
+        for side, k, slack in ((-1.0, LOW, BEYOND), (1.0, HIGH, BEYOND), (-1.0, RATE, FASTER), (1.0, RATE, FASTER))
+    )
     judged = max(_nearest(fitted[k], np.delete(fitted, k, axis=0)) for k in out.whole)
     return within and max(_nearest(one, fitted) for one in asked) <= FARTHER * judged
 
