@@ -22,6 +22,7 @@ from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing, solvable
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
+from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Dataset, Record
 
@@ -110,7 +111,7 @@ class Laws:
 
     def _smoothed(self, name: str, problem: Problem, begun: float) -> Law:
         """A law of many linear parameters, as smooth as predicts best."""
-        found = Smoothing(problem).searched(left_out(self.records))
+        found = Smoothing(problem).searched(judged(self.records, self.dataset))
         full = self.fitter(name, self.dataset.fitted).stack.problem({registry.RECORD_OFFSET})
         errors = self._errors(full.system, Smoothing(full).refitted(found))
         last = last_part(self.records)

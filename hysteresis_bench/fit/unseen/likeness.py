@@ -1,4 +1,4 @@
-"""Is what is asked like what was fitted? Then what was left out of the fits is like it too, and tells the law alone.
+"""Is what is asked like what was fitted? Then what was left out of the fits is like it too, and its error decides alone.
 
 An input is described by what a law may know of it: its lowest and highest value, as shares of the span of all fitted
 ones, and how fast it moves and how often it goes to and fro, as logarithms. Two are as far apart as the largest
@@ -10,13 +10,14 @@ one, predicting them is no harder than what the laws were judged by. Only inputs
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.unseen.interval import BEYOND as OTHER
 from hysteresis_bench.fit.unseen.interval import speed
-from hysteresis_bench.fit.unseen.whole import BEYOND, LeftOut
+from hysteresis_bench.fit.unseen.whole import BEYOND, LeftOut, left_out
 from hysteresis_bench.signals import Dataset, Record
 
 FARTHER = 1.5
@@ -28,8 +29,16 @@ LOW, HIGH, RATE = range(3)
 FASTER = float(np.log(OTHER))
 
 
-def alike(dataset: Dataset, out: LeftOut) -> bool:
-    """Is every input that is held out like those left out whole? out : what is left out of the fitted records."""
+def judged(records: Sequence[Record], dataset: Dataset) -> LeftOut:
+    """What is left out of the records' fits, and whether what the data set holds out is like it.
+
+    records : those that the data set has for fits, maybe thinned
+    """
+    out = left_out(records)
+    return replace(out, like=_alike(dataset, out))
+
+
+def _alike(dataset: Dataset, out: LeftOut) -> bool:
     if not (out.telling and out.whole and dataset.held_out):
         return False
     inputs = [record.input[record.scored] for record in dataset.fitted]

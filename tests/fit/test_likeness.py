@@ -6,8 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.laws.likeness import alike
-from hysteresis_bench.fit.unseen.whole import left_out
+from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.signals import Dataset, Record
 
 PHASE = np.linspace(0.0, 3.0, 400)
@@ -21,7 +20,7 @@ def record(amplitude: float, frequency: float) -> Record:
 def like(fitted: Sequence[tuple[float, float]], held_out: tuple[float, float]) -> bool:
     records = [record(*one) for one in (*fitted, held_out)]
     unmeasured = replace(records[-1], output=np.full(PHASE.size, np.nan))  # what is held out is not opened
-    return alike(Dataset((*records[:-1], unmeasured), (unmeasured.name,)), left_out(records[:-1]))
+    return judged(records[:-1], Dataset((*records[:-1], unmeasured), (unmeasured.name,))).like
 
 
 FREQUENCIES = [(1.0, f) for f in (1.0, 2.0, 8.0, 16.0)]
@@ -47,4 +46,4 @@ def test_what_is_asked_is_like_what_was_left_out(fitted, held_out, expected):
 
 def test_nothing_held_out_asks_nothing():
     records = tuple(record(*one) for one in FREQUENCIES)
-    assert not alike(Dataset(records), left_out(records))
+    assert not judged(records, Dataset(records)).like
