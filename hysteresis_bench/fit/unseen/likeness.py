@@ -1,4 +1,4 @@
-"""Is what is asked like what was fitted? Then what was left out of the fits is like it too, and its error decides alone.
+"""Is what is asked like what was fitted? Then what was left out of the fits is like it too, and its error alone counts.
 
 An input is described by what a law may know of it: its lowest and highest value, as shares of the span of all fitted
 ones, and how fast it moves and how often it goes to and fro, as logarithms. Two are as far apart as the largest
