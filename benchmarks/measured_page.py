@@ -134,10 +134,10 @@ def _how() -> Bullets:
                 "from the fitted records and the inputs of those held out"
             ),
             sentence(
-                "the coupon S355J2 unloads in its record by up to 650 GPa, three times steel's modulus: six of its samples "
-                "hold 69 % of the squared error held out, and no law under that strain follows them; the coupon S355 hardens "
-                "in tension and does not in compression, which the laws of metals do not: a third backstress took their "
-                "error on the fitted part from 16.1 to 15.9 MPa"
+                "the coupon S355J2 unloads in its record by up to 650 GPa, three times steel's modulus: six of its "
+                "samples hold 69 % of the squared error held out, and no law under that strain follows them; the coupon "
+                "S355 hardens in tension and does not in compression, which the laws of metals do not: a third "
+                "backstress took their error on the fitted part from 16.1 to 15.9 MPa"
             ),
             sentence(
                 "asked for steel and ferrite is a share of the largest flux density of all loops, for dampers, walls "
