@@ -135,8 +135,8 @@ def _how() -> Bullets:
             ),
             sentence(
                 "the coupon S355J2 unloads in its record by up to 650 GPa, three times steel's modulus: six of its "
-                "samples hold 69 % of the squared error held out, and no law under that strain follows them; the coupon "
-                "S355 hardens in tension and does not in compression, which the laws of metals do not: a third "
+                "samples hold 69 % of the squared error held out, and no law under that strain follows them; the "
+                "coupon S355 hardens in tension and does not in compression, which the laws of metals do not: a third "
                 "backstress took their error on the fitted part from 16.1 to 15.9 MPa"
             ),
             sentence(
