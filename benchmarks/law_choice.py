@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from itertools import combinations
 
 import numpy as np
@@ -63,42 +63,65 @@ def once(phase: Array) -> Array:
     return 0.5 - 0.5 * np.cos(2.0 * np.pi * phase)
 
 
-Run = tuple[float, float, Callable[[Array], Array], bool]
+@dataclass(frozen=True)
+class Run:
+    """share : amplitude, of the law's own;  held_out : the last third, where no run of a drive is
+    frequency : cycles a unit of time
+    """
+
+    share: float
+    cycles: float
+    shape: Callable[[Array], Array] = sine
+    held_out: bool = False
+    frequency: float = 1.0
+
+
+def several_frequencies(held_out: int) -> tuple[Run, ...]:
+    """One amplitude at frequencies like those of a ferroelectric tester; held_out : which of them."""
+    return tuple(Run(1.0, 2.25, held_out=k == held_out, frequency=f) for k, f in enumerate((0.4, 0.6, 1.0, 1.6, 2.5)))
+
+
 DRIVES: Mapping[str, Sequence[Run]] = {
-    "two amplitudes": ((0.1, 2.25, sine, False), (1.0, 2.25, sine, False), (0.2, 2.25, sine, True)),
+    "two amplitudes": (Run(0.1, 2.25), Run(1.0, 2.25), Run(0.2, 2.25, held_out=True)),
     "nested amplitudes": (
-        *((share, 2.25, sine, False) for share in (0.1, 0.3, 1.0)),
-        *((share, 2.25, sine, True) for share in (0.2, 0.6)),
+        *(Run(share, 2.25) for share in (0.1, 0.3, 1.0)),
+        *(Run(share, 2.25, held_out=True) for share in (0.2, 0.6)),
     ),
-    "one amplitude": ((1.0, 2.25, sine, False), (0.4, 2.25, sine, True)),
-    "decaying": ((0.9, 8.0, decaying, False), (1.0, 2.25, sine, True)),
-    "growing": ((1.0, 9.0, growing, False),),
-    "steep": ((1.0, 9.0, steep, False),),
-    "once": ((1.0, 1.0, once, False),),
-    "once and more": ((1.0, 1.6, once, False),),
-    "minor loops": ((1.0, 6.0, minor_loops, False),),
+    "one amplitude": (Run(1.0, 2.25), Run(0.4, 2.25, held_out=True)),
+    "decaying": (Run(0.9, 8.0, decaying), Run(1.0, 2.25, held_out=True)),
+    "growing": (Run(1.0, 9.0, growing),),
+    "steep": (Run(1.0, 9.0, steep),),
+    "once": (Run(1.0, 1.0, once),),
+    "once and more": (Run(1.0, 1.6, once),),
+    "minor loops": (Run(1.0, 6.0, minor_loops),),
     "several shapes": (
-        (1.0, 3.0, minor_loops, False),
-        (0.7, 3.0, minor_loops, False),
-        (0.5, 2.2, sine, False),
-        (0.85, 3.0, minor_loops, True),
-        (0.6, 2.2, sine, True),
+        Run(1.0, 3.0, minor_loops),
+        Run(0.7, 3.0, minor_loops),
+        Run(0.5, 2.2),
+        Run(0.85, 3.0, minor_loops, held_out=True),
+        Run(0.6, 2.2, held_out=True),
     ),
+    "middle frequency": several_frequencies(2),
+    "highest frequency": several_frequencies(4),
 }
-"""Amplitude, as a share of the law's own, cycles, shape, and whether it is held out: the last third, where none is."""
+LAG, DELAY = "input-lag", 0.03
+"""What stands before every law where frequencies differ, and is told to `compare`; cycles at frequency 1."""
 SAMPLES, FEWEST = 50, 250
 """A cycle, and of a lone record."""
 
 
-def response(made: str, rng: np.random.Generator) -> tuple[Callable[[Array, Array], Array], float]:
+def response(
+    made: str, effects: Sequence[str], rng: np.random.Generator
+) -> tuple[Callable[[Array, Array], Array], float]:
     """Time and share of the amplitude to output, every part of a sum scaled to one; and the amplitude."""
     parts = []
     for name in made.split("+"):
         model = registry.build("models", name)
-        system, example = System(model), model.example
+        bare, example = System(model), model.example
         assert example is not None
-        values = [example.parameters[q.name] * np.exp(SPREAD * rng.standard_normal()) for q in system.parameters]
-        parts.append((system, example.amplitude, np.array(values)[:, None]))
+        values = [example.parameters[q.name] * np.exp(SPREAD * rng.standard_normal()) for q in bare.parameters]
+        system = System(model, registry.build_effects(model, effects))
+        parts.append((system, example.amplitude, np.array([*values, *(DELAY for _ in effects)])[:, None]))
 
     def simulated(system: System, time: Array, u: Array, values: Array) -> Array:
         found: Array = system.simulate(Record(time, u, None).signal, values)[:, 0]
@@ -115,16 +138,21 @@ def response(made: str, rng: np.random.Generator) -> tuple[Callable[[Array, Arra
     return summed, parts[0][1] if len(parts) == 1 else 1.0
 
 
+def effects(drive: str) -> tuple[str, ...]:
+    """That stand around the law, known."""
+    return (LAG,) if any(run.frequency != 1.0 for run in DRIVES[drive]) else ()
+
+
 def case(made: str, drive: str, seed: int) -> tuple[Dataset, float]:
     """Records and the RMS of their noise, which those that are held out by name have not."""
     rng = np.random.default_rng([seed, MADE.index(made), [*DRIVES].index(drive)])
-    noise, (respond, amplitude), records = float(rng.choice(NOISES)), response(made, rng), []
-    for number, (share, cycles, shape, _) in enumerate(DRIVES[drive]):
+    noise, (respond, amplitude), records = float(rng.choice(NOISES)), response(made, effects(drive), rng), []
+    for number, run in enumerate(DRIVES[drive]):
         fewest = FEWEST if len(DRIVES[drive]) == 1 else 0
-        time = np.linspace(0.0, cycles, max(round(SAMPLES * cycles), fewest))
-        drawn = share * rng.uniform(0.85, 1.0) * shape(time)
+        phase = np.linspace(0.0, run.cycles, max(round(SAMPLES * run.cycles), fewest))
+        drawn, time = run.share * rng.uniform(0.85, 1.0) * run.shape(phase), phase / run.frequency
         records.append(Record(time, amplitude * drawn, respond(time, drawn), f"run {number}"))
-    held_out = tuple(record.name for record, run in zip(records, DRIVES[drive], strict=True) if run[3])
+    held_out = tuple(record.name for record, run in zip(records, DRIVES[drive], strict=True) if run.held_out)
     level = noise * max(float(np.ptp(record.measured)) for record in records)
     noisy = [replace(r, output=r.measured + level * rng.standard_normal(r.time.size)) for r in records]
     seen = [own if own.name in held_out else one for own, one in zip(records, noisy, strict=True)]
@@ -137,7 +165,7 @@ def answers(made: str, drive: str, seed: int) -> Iterator[tuple[str, str, float]
     kin = {made, *(name for group in KIN if made in group for name in group)}
     laws = {"sum": LAWS} if "+" in made else {"known": LAWS, "unknown": tuple(n for n in LAWS if n not in kin)}
     for kind, names in laws.items():
-        found = compare(dataset, names, options=DiagnosisOptions(seed=seed, laws=names, jobs=1))
+        found = compare(dataset, names, effects(drive), options=DiagnosisOptions(seed=seed, laws=names, jobs=1))
         rows = found.table[found.table["law"].isin(names)].set_index("law")["held_out"]
         least = 0.3 * noise  # below it a difference does not matter
         yield kind, found.chosen, (float(rows.get(found.chosen, np.inf)) + least) / (float(rows.min()) + least)

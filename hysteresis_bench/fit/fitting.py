@@ -32,8 +32,8 @@ from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
-from hysteresis_bench.fit.smooth.smoothing import SOLVED, Rough, Smoothing
-from hysteresis_bench.fit.unseen.whole import left_out
+from hysteresis_bench.fit.smooth.smoothing import SOLVED, Smoothing, solvable
+from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.progress import Kept, OnStep, Step, quiet
@@ -250,7 +250,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
     while True:
         ready = dataset.map(lambda record, n=repeats: record.settled(n)) if options.settle else dataset
         problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
-        found = [Smoothing(problem).searched(left_out(problem.records)).values] if smooth else []
+        found = [Smoothing(problem).searched(judged(problem.records, ready)).values] if smooth else []
         for run in () if smooth else (0, 1):
             asked = ("search", run, repeats)
             if options.kept is not None and (values := options.kept.get(asked)) is not None:
@@ -276,7 +276,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
 
 def _smooth(system: System, options: FitOptions) -> bool:
     """Is it solved for? Not where another optimizer than the usual one was asked for."""
-    return isinstance(system.model, Rough) and options.optimizer == registry.SEARCH
+    return solvable(system) and options.optimizer == registry.SEARCH
 
 
 def _notes(problem: Problem, options: FitOptions, repeats: int) -> tuple[str, ...]:

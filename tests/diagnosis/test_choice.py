@@ -23,6 +23,13 @@ def test_a_richer_law_needs_more_blocks(blocks, chosen):
     assert ("5 parameters in place of 19" in words) == (chosen == "dahl")
 
 
+def test_parameters_do_not_weigh_where_what_is_asked_is_like_what_was_left_out():
+    laws = [law("preisach", 1.0, 19), law("dahl", 1.2, 5)]
+    name, words = choose(laws, PLAIN, blocked([400], [20], 4), like=True)
+    assert name == "preisach"
+    assert "its 19 parameters, in place of the 5 of dahl, do not weigh" in words
+
+
 def test_no_law_is_taken_where_the_polynomial_does_better():
     assert choose([law("dahl", 11.0, 5), Law("lugre", "why not")], PLAIN, blocked([400], [20], 4))[0] == ""
 

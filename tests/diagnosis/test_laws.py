@@ -174,3 +174,8 @@ def test_where_no_loop_closes_no_law_is_believed_without_a_word():
     half, whole = (Record(TIME, u, BOUC_WEN(u), name=name) for u, name in ((there, "half"), (drive(1.0, 2.0), "whole")))
     assert OPEN in compare(Dataset((half,)), ("dahl",), options=ONE).words
     assert OPEN not in compare(Dataset((whole,)), ("dahl",), options=ONE).words
+
+
+def test_a_smooth_law_behind_an_effect_that_is_not_affine_is_told():
+    table = compare(Dataset(records(BOUC_WEN)), ["preisach-hats", "dahl"], ["saturation"], options=ONE).table
+    assert "not linear in its many weights" in table.set_index("law").loc["preisach-hats", "reason"]

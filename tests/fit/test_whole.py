@@ -1,5 +1,7 @@
 """What is left out to judge a law: excitations within the range of the others, blocks of those that go further."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -21,6 +23,14 @@ def test_of_nested_amplitudes_the_smaller_ones_are_left_out_whole():
     assert [np.unique(part).size for part in folds] == [1, 4, 1, 1]
     assert len({int(part[0]) for part in (folds[0], folds[2], folds[3])}) == 3
     assert found.telling
+
+
+def test_no_smoother_density_is_taken_where_the_least_error_is_what_to_expect():
+    found = left_out([record(amplitude, str(amplitude)) for amplitude in (1.0, 8.0, 2.0, 4.0)])
+    best = np.full(found.blocks.block.size, 1.0)
+    other = 1.0 + 0.1 * np.random.default_rng(0).standard_normal(found.blocks.block.max() + 1)[found.blocks.block]
+    assert found.as_good(best, other)
+    assert not replace(found, like=True).as_good(best, other)
 
 
 def test_one_smaller_amplitude_is_too_few_to_tell():

@@ -8,6 +8,12 @@ observations, as neighbouring samples tell the same. Of 122 choices on made data
 with none; the mean was 1.18, 1.28, 1.25 and 1.32 times. The rule was found on them; of 21 fresh choices it brought 15
 within 1.2 times, the mean was 1.18 and the worst 2.25.
 
+Where what is held out is like what was left out (fit/unseen/likeness.py), the least error decides alone: of 56 choices
+where it was so (drives several shapes and middle frequency), and where no smoother density was taken either, 93 % came
+within 1.2 times the least error in place of 82 %, the geometric mean was 1.03 in place of 1.12 times and the worst 2.0
+in place of 3.1; with half the weight of parameters, and smoother densities, 91 % and 1.08. Of 18 fresh choices all came
+within 1.2 times, 15 with the weight.
+
 Of a lone record, what is left out lies between what is fitted, which favours laws that run away behind its end. Its
 last third, predicted from what came before, counts as much: of 36 choices on records that grow, that close one loop or
 none (drives growing, once, once and more), 67 % came within 1.2 times the least error in place of 53 %, and the
@@ -26,22 +32,27 @@ from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
 
-def choose(laws: Sequence[Law], plain: float, blocks: Blocks) -> tuple[str, str]:
+def choose(laws: Sequence[Law], plain: float, blocks: Blocks, *, like: bool = False) -> tuple[str, str]:
     """The law's name, and a sentence; the name is "" where no law beats the polynomial.
 
     laws : the best first;  plain : RMSE of the polynomial without memory, as `Law.rmse`
-    blocks : what was left out together
+    blocks : what was left out together;  like : it is like what is asked, and parameters do not weigh
     """
     fitted = [law for law in laws if law.unseen.size]
     if not fitted or fitted[0].rmse >= plain:
         return "", "No law predicts what it did not see better than a cubic polynomial of the input, without memory."
     count, best = int(blocks.block.max()) + 1, fitted[0]
-    chosen = min(fitted, key=lambda law: expected(law, count))
-    told = f"{best.model} predicts best what it did not see: {best.rmse / plain:.3g} of the polynomial's error"
-    if chosen is best:
-        return best.model, f"{told}."
-    return chosen.model, (
-        f"{told}. {chosen.model} is taken, {chosen.rmse / plain:.3g} with {chosen.parameters} parameters in place of "
+    simpler = min(fitted, key=lambda law: expected(law, count))
+    told = f"{best.model} predicts best what it did not see: {best.rmse / plain:.3g} of the polynomial's error."
+    if simpler is best:
+        return best.model, told
+    if like:
+        return best.model, (
+            f"{told} The inputs that are held out are as near to fitted ones as those that it was judged by were: its "
+            f"{best.parameters} parameters, in place of the {simpler.parameters} of {simpler.model}, do not weigh."
+        )
+    return simpler.model, (
+        f"{told} {simpler.model} is taken, {simpler.rmse / plain:.3g} with {simpler.parameters} parameters in place of "
         f"{best.parameters}: with {count} blocks to judge by, a gain by so many more is not expected to carry over to "
         f"other excitations."
     )

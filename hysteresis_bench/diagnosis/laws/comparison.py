@@ -28,7 +28,8 @@ from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.settling import open_loops
-from hysteresis_bench.fit.unseen.whole import last_part, left_out, open_way
+from hysteresis_bench.fit.unseen.likeness import judged
+from hysteresis_bench.fit.unseen.whole import last_part, open_way
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
 
@@ -81,7 +82,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
     thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
     asked = views_of(thin.records)
-    found, out = structure(asked), left_out(thin.records)
+    found, out = structure(asked), judged(thin.records, seen)
     names, reasons = tuple(options.laws), dict[str, str]()
     if not names:
         names = registry.names("models")
@@ -94,7 +95,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
-    chosen, words = choose(laws, plain, out.blocks)
+    chosen, words = choose(laws, plain, out.blocks, like=out.like)
     left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
     if left > WRONG:
         words += (

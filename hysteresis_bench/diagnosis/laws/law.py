@@ -19,9 +19,10 @@ from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing
+from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing, solvable
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
+from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Dataset, Record
 
@@ -110,7 +111,7 @@ class Laws:
 
     def _smoothed(self, name: str, problem: Problem, begun: float) -> Law:
         """A law of many linear parameters, as smooth as predicts best."""
-        found = Smoothing(problem).searched(left_out(self.records))
+        found = Smoothing(problem).searched(judged(self.records, self.dataset))
         full = self.fitter(name, self.dataset.fitted).stack.problem({registry.RECORD_OFFSET})
         errors = self._errors(full.system, Smoothing(full).refitted(found))
         last = last_part(self.records)
@@ -128,6 +129,8 @@ class Laws:
     def _reasons(self, fitter: Fitter) -> list[str]:
         system = fitter.stack.system(())
         reasons = [f"{name}: {why}" for name, effect in system.effects if (why := effect.inapplicable(self.records))]
+        if isinstance(system.model, Rough) and not solvable(system):
+            reasons.append("behind these effects its output is not linear in its many weights, which are solved for.")
         samples = sum(record.measured.size for record in self.records)
         count = len(system.parameters)
         if samples <= 2 * count and not isinstance(system.model, Rough):

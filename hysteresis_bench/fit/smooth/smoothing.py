@@ -18,6 +18,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.pivoting import least_above
 from hysteresis_bench.fit.unseen.blocks import Blocks
@@ -44,6 +45,11 @@ class Rough(Protocol):
     def roughness(self, p: Any) -> Array:
         """(rows, len(linear)): what a smooth law has little of; p as in `Model.simulate`, a swarm of 1, of which only
         the parameters that are not linear matter."""
+
+
+def solvable(system: System) -> bool:
+    """Is it a rough law whose linear parameters are still linear behind the effects around it?"""
+    return isinstance(system.model, Rough) and {*system.model.linear} <= {*system.linear}
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,14 +47,22 @@ LAST = 3
 class LeftOut:
     """blocks : which sample is left out with which, and of which fold
     telling : whether enough whole records, or other amplitudes, are predicted; else it is blocks of like excitation
+    whole : numbers of the records that are left out whole; none of a lone one
+    like : what is asked is like it, so that its error is what to expect there
     """
 
     blocks: Blocks
     telling: bool
+    whole: tuple[int, ...] = ()
+    like: bool = False
 
     def as_good(self, best: Array, other: Array) -> bool:
         """Does a smoother density do as well, so that it is taken? By the paired test over blocks where they can judge;
-        else where its error is at most `SMOOTHER` times the best one's."""
+        else where its error is at most `SMOOTHER` times the best one's. None does where the least error is to be
+        expected of what is asked as well: of 16 made densities it was the least one that erred less there in 13, by a
+        tenth in the geometric mean."""
+        if self.like:
+            return False
         if self.telling:
             return advantage(best, other, self.blocks) < CLEAR
         return float(np.mean(other**2)) <= SMOOTHER**2 * float(np.mean(best**2))
@@ -85,7 +93,8 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     present, dense = np.unique(fold, return_inverse=True)
     small = [k for k in whole if high[k] - low[k] < SMALLER * span]
     telling = len(records if len(records) > 1 else small) >= FEWEST and whole.size >= FEWEST
-    return LeftOut(Blocks(block, dense.ravel(), present.size), telling)
+    records_out = tuple(whole.tolist()) if len(records) > 1 else ()
+    return LeftOut(Blocks(block, dense.ravel(), present.size), telling, records_out)
 
 
 def last_part(records: Sequence[Record]) -> Array:
