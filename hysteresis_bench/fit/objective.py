@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import TypeAlias
 
 import numpy as np
@@ -81,18 +81,25 @@ class Problem:
         longest = max(record.time.size for record in self.records)
         return min(MOST_BLOCK, max(LEAST_BLOCK, BLOCK_BYTES // (8 * longest)))
 
+    @cached_property
+    def _measured(self) -> tuple[tuple[Record, slice, Array], ...]:
+        """Every record with what of it is scored, cut once: that takes as long as a short simulation."""
+        return tuple((record, record.scored, record.measured) for record in self.records)
+
     def squares(self, points: Array) -> Array:
         """Sum of squared errors over all scored samples; points : (dimension, swarm) in the unit box."""
         from hysteresis_bench.kernels.squares import sum_of_squares
 
         values = np.ascontiguousarray(self.space.from_unit(points))
-        total = np.zeros(values.shape[1])
+        total = np.empty(values.shape[1])
         for first in range(0, values.shape[1], self.block):
             columns = slice(first, first + self.block)
             part = np.ascontiguousarray(values[:, columns])
-            for record in self.records:
-                simulated = self.system.respond(record, part)
-                total[columns] += sum_of_squares(simulated[record.scored], record.measured)
+            squares = (
+                sum_of_squares(self.system.respond(record, part)[scored], measured)
+                for record, scored, measured in self._measured
+            )
+            total[columns] = reduce(np.add, squares)
         return total
 
     def losses(self, points: Array) -> Array:
