@@ -197,14 +197,15 @@ def _side_by_side(u: Array, lengths: Array, p: tuple[Array, Array, Array, Array]
         row = np.uint64(i * swarm + first)
         special = 0
         if not shared:
-            widest = 0.0
             if long:
+                widest = np.int64(0)  # the bits of |step|, in its order; unlike it compared side by side
                 for j in range(lanes):
-                    step = inputs[row + j] - work[INPUT + j]
+                    now = inputs[row + j]
+                    step = now - work[INPUT + j]
                     work[STEP + j] = step
-                    work[INPUT + j] = inputs[row + j]
-                    widest = max(widest, abs(step))
-                special = _coarse(work, lanes, fastest * widest)
+                    work[INPUT + j] = now
+                    widest = max(widest, np.float64(abs(step)).view(np.int64))
+                special = _coarse(work, lanes, fastest * np.int64(widest).view(np.float64))
                 for j in range(lanes):
                     outputs[row + j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
             else:
