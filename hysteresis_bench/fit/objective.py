@@ -21,8 +21,8 @@ CEILING = 1e9
 reasonable range, or is NaN, is worth. Finite, because NaN makes pymoo's CMA-ES hang and inf ends nlopt's
 DIRECT-L after 9 calls."""
 
-BLOCK_BYTES = 64 << 20
-"""Simulated output of a block of a swarm at most, but for the longest records."""
+BLOCK_BYTES = 24 << 20
+"""Simulated output of a block of a swarm at most, but for the longest records: it stays in a cache of 32 MB."""
 LEAST_BLOCK, MOST_BLOCK = 16, 64
 """Columns below which a kernel no longer fills its vector lanes, and those that it integrates side by side."""
 
