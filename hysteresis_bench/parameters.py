@@ -88,11 +88,17 @@ class Space:
         high = np.where(logarithmic, np.log(np.where(logarithmic, upper, 1.0)), upper)
         return low, high - low, logarithmic
 
+    @cached_property
+    def _logarithmic(self) -> Array:
+        return np.flatnonzero(self._edges[2])
+
     def from_unit(self, points: Array) -> Array:
         """Unit box to physical values. points : (dimension, swarm) in [0, 1] -> same shape, in units."""
-        low, span, logarithmic = self._edges
-        values = low + span * points
-        return np.where(logarithmic, np.exp(np.where(logarithmic, values, 0.0)), values)
+        low, span, _ = self._edges
+        values: Array = low + span * points
+        if (rows := self._logarithmic).size:
+            values[rows] = np.exp(values[rows])
+        return values
 
     def to_unit(self, values: Array) -> Array:
         """Physical values to the unit box, (dimension, swarm); values outside the box land outside it."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 from typing import TypeAlias
 
 import numpy as np
@@ -21,8 +21,8 @@ CEILING = 1e9
 reasonable range, or is NaN, is worth. Finite, because NaN makes pymoo's CMA-ES hang and inf ends nlopt's
 DIRECT-L after 9 calls."""
 
-BLOCK_BYTES = 64 << 20
-"""Simulated output of a block of a swarm at most, but for the longest records."""
+BLOCK_BYTES = 24 << 20
+"""Simulated output of a block of a swarm at most, but for the longest records: it stays in a cache of 32 MB."""
 LEAST_BLOCK, MOST_BLOCK = 16, 64
 """Columns below which a kernel no longer fills its vector lanes, and those that it integrates side by side."""
 
@@ -81,18 +81,25 @@ class Problem:
         longest = max(record.time.size for record in self.records)
         return min(MOST_BLOCK, max(LEAST_BLOCK, BLOCK_BYTES // (8 * longest)))
 
+    @cached_property
+    def _measured(self) -> tuple[tuple[Record, slice, Array], ...]:
+        """Every record with what of it is scored, cut once: that takes as long as a short simulation."""
+        return tuple((record, record.scored, record.measured) for record in self.records)
+
     def squares(self, points: Array) -> Array:
         """Sum of squared errors over all scored samples; points : (dimension, swarm) in the unit box."""
         from hysteresis_bench.kernels.squares import sum_of_squares
 
         values = np.ascontiguousarray(self.space.from_unit(points))
-        total = np.zeros(values.shape[1])
+        total = np.empty(values.shape[1])
         for first in range(0, values.shape[1], self.block):
             columns = slice(first, first + self.block)
             part = np.ascontiguousarray(values[:, columns])
-            for record in self.records:
-                simulated = self.system.respond(record, part)
-                total[columns] += sum_of_squares(simulated[record.scored], record.measured)
+            squares = (
+                sum_of_squares(self.system.respond(record, part)[scored], measured)
+                for record, scored, measured in self._measured
+            )
+            total[columns] = reduce(np.add, squares)
         return total
 
     def losses(self, points: Array) -> Array:

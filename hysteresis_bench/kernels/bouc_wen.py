@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, grown, relaxed
+from hysteresis_bench.kernels.bouc_wen_step import HUGE, RUNAWAY, grown, regrown, relaxed
 
 SERIES_LIMIT = 0.25
 """Largest |rate w| for the series of (1 - exp(-x)) / x below; its first neglected term is 2.4e-14 there."""
@@ -113,10 +113,10 @@ def outside(work, j):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def mended(work: Array, lanes: np.uint64, n: float) -> bool:
+def mended(work: Array, lanes: np.uint64, n: float, special: int = LANES) -> bool:
     """Repeat the increment for the lanes whose h crossed 0 on it, or is NaN as it was too long; cut the ones that
-    ran away -> whether it was too long for one."""
-    long = False
+    ran away -> whether it was too long for one. special : how many there are at most, after which none is sought"""
+    long, left = False, special
     for j in range(lanes):
         if outside(work, j):
             new = work[H + j]
@@ -126,12 +126,17 @@ def mended(work: Array, lanes: np.uint64, n: float) -> bool:
             toward = mirror if work[STEP + j] >= 0.0 else -mirror
             g, free, width = toward * work[OLD + j], toward * new, abs(work[STEP + j])
             onward = g != 0.0 and (g < 0.0) == (free < 0.0)  # else a step for n > 1 went from rest, or past a pole
-            if lost or g < 0.0 < free or (n > 1.0 and not onward):
+            if n == 1.0 and g < 0.0 < free:
+                free = regrown(g, abs(drive), beta + mirror * gamma, beta - mirror * gamma, width)
+            elif lost or g < 0.0 < free or (n > 1.0 and not onward):
                 free = grown(g, abs(drive), beta + mirror * gamma, beta - mirror * gamma, n, width, bound)
             work[H + j] = toward * min(max(free, -bound), bound)
             if lost or g <= 0.0 or free <= 0.0:
                 _sided(work, np.uint64(j), n)
             long = long or lost
+            left -= 1
+            if left == 0:
+                break
     return long
 
 
@@ -197,14 +202,15 @@ def _side_by_side(u: Array, lengths: Array, p: tuple[Array, Array, Array, Array]
         row = np.uint64(i * swarm + first)
         special = 0
         if not shared:
-            widest = 0.0
             if long:
+                widest = np.int64(0)  # the bits of |step|, in its order; unlike it compared side by side
                 for j in range(lanes):
-                    step = inputs[row + j] - work[INPUT + j]
+                    now = inputs[row + j]
+                    step = now - work[INPUT + j]
                     work[STEP + j] = step
-                    work[INPUT + j] = inputs[row + j]
-                    widest = max(widest, abs(step))
-                special = _coarse(work, lanes, fastest * widest)
+                    work[INPUT + j] = now
+                    widest = max(widest, np.float64(abs(step)).view(np.int64))
+                special = _coarse(work, lanes, fastest * np.int64(widest).view(np.float64))
                 for j in range(lanes):
                     outputs[row + j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
             else:
@@ -216,7 +222,7 @@ def _side_by_side(u: Array, lengths: Array, p: tuple[Array, Array, Array, Array]
                     special += _advanced(work, j, rising if step >= 0.0 else falling, step, True)
                     outputs[row + j] = work[SLOPE + j] * now - work[H + j]
             if special > 0:
-                long = mended(work, lanes, 1.0) or long
+                long = mended(work, lanes, 1.0, special) or long
                 for j in range(lanes):
                     outputs[row + j] = work[SLOPE + j] * work[INPUT + j] - work[H + j]
             continue
@@ -238,7 +244,7 @@ def _side_by_side(u: Array, lengths: Array, p: tuple[Array, Array, Array, Array]
                 outputs[row + j] = work[SLOPE + j] * x - work[H + j]
         if special > 0:
             work[STEP : STEP + lanes] = step
-            mended(work, lanes, 1.0)
+            mended(work, lanes, 1.0, special)
             for j in range(lanes):
                 outputs[row + j] = work[SLOPE + j] * x - work[H + j]
 

@@ -10,6 +10,12 @@ from hysteresis_bench.arrays import Array
 SAME_TIME = 8e-16
 """Times that differ by less than this share of the largest are the same but for rounding."""
 
+WIDEST = 2.0
+"""Steps by which the times of a nearly even grid lie apart from an even one."""
+
+TOGETHER = 128
+"""Samples of a column that are looked for together: enough for the vectors, and their results stay in cache."""
+
 
 @njit(cache=True, error_model="numpy")
 def _even_step(time: Array) -> float:
@@ -47,34 +53,65 @@ def _delay_evenly(u: Array, steps: Array, v: Array) -> None:
             before[j] = now
 
 
+@njit(cache=True, error_model="numpy")
+def _spread(time: Array, step: float) -> float:
+    """How far times lie from an even grid, the latest against the earliest and no less than rounding moves them."""
+    earliest = latest = 0.0
+    for i in range(time.size):
+        off = time[i] - (time[0] + i * step)
+        earliest, latest = min(earliest, off), max(latest, off)
+    return latest - earliest + 5.0 * SAME_TIME * max(abs(time[0]), abs(time[-1]))
+
+
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
 def _delay_unevenly(time: Array, u: Array, duration: Array, v: Array) -> None:
-    """`delay` on any grid. Columns look for the samples between which their own past lies side by side, one sample
-    further at a time; indices that cannot be negative let that be vectorised."""
+    """`delay` on any grid: a column looks for the samples between which its past lies, TOGETHER of them at a time.
+
+    On a nearly even grid they are known but for a few, and how many of those have passed is counted without a branch;
+    on any other they are found one sample after the other.
+    """
     samples, columns = u.shape
-    flat = u.ravel().copy()  # what might overlap with v would not be vectorised
-    begin = np.empty(duration.size, dtype=np.uint64)  # of the stretch between samples in which t - duration lies
-    place = np.empty(duration.size, dtype=np.uint64)  # of what a column has there
+    inputs, outputs = u.ravel(), v.reshape(v.size)
+    row, wide, one = np.uint64(columns), np.uint64(duration.size), np.uint64(1)
+    step = (time[-1] - time[0]) / (samples - 1)
+    spread = _spread(time, step)
+    near = spread < WIDEST * step
+    few = int(2.0 * spread / step) + 1 if near else 0  # samples that may have passed or not
+    origin = samples  # where the first sample stands: what lies before it has passed, the last one never does
+    passing = np.full(2 * samples + few, np.inf)
+    passing[: origin + 1] = -np.inf
+    passing[origin + 1 : origin + samples - 1] = time[1:-1]
+    inverse = 1.0 / (time[1:] - time[:-1])  # numba has no diff of read-only arrays
+    reached = np.zeros(duration.size, dtype=np.uint64)
+    past, begin = np.empty(TOGETHER), np.empty(TOGETHER, dtype=np.uint64)
     for j in range(duration.size):
-        begin[j] = 0
-        place[j] = j if columns > 1 else 0
         v[0, j] = u[0, j if columns > 1 else 0]
-    end, inverse = time[1:].copy(), 1.0 / (time[1:] - time[:-1])  # numba has no diff of read-only arrays
-    end[-1:] = np.inf
-    one, row = np.uint64(1), np.uint64(columns)
-    for i in range(1, samples):
-        moved = one
-        while moved > 0:
-            moved = np.uint64(0)
-            for j in range(duration.size):
-                past = np.uint64(end[begin[j]] <= time[i] - duration[j])
-                begin[j] += past
-                moved += past
+    for first in range(1, samples, TOGETHER):
+        block = np.uint64(min(TOGETHER, samples - first))
         for j in range(duration.size):
-            k = begin[j]
-            share = max((time[i] - duration[j] - time[k]) * inverse[k], 0.0)
-            before = flat[place[j] + k * row]
-            v[i, j] = before + share * (flat[place[j] + k * row + row] - before)
+            for i in range(block):
+                past[i] = max(time[np.uint64(first) + i] - duration[j], time[0])
+            if near:
+                known = first - int(min(np.ceil((duration[j] + spread) / step), samples))  # of the first one
+                begin[:] = 0
+                for k in range(origin + known + 1, origin + known + 1 + few):
+                    for i in range(block):
+                        begin[i] += np.uint64(passing[np.uint64(k) + i] <= past[i])
+                for i in range(block):
+                    begin[i] = np.uint64(max(np.int64(i + begin[i]) + known, np.int64(0)))
+            else:
+                place = reached[j]
+                for i in range(block):
+                    while passing[np.uint64(origin) + place + one] <= past[i]:
+                        place += one
+                    begin[i] = place
+                reached[j] = place
+            column, into = np.uint64(j if columns > 1 else 0), np.uint64(first * duration.size + j)
+            for i in range(block):
+                k = begin[i]
+                before = inputs[k * row + column]
+                share = (past[i] - time[k]) * inverse[k]
+                outputs[i * wide + into] = before + share * (inputs[k * row + row + column] - before)
     for j in range(duration.size):
         if duration[j] == 0.0:
             v[samples - 1, j] = u[samples - 1, j if columns > 1 else 0]

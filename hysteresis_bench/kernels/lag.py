@@ -16,11 +16,18 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.bouc_wen import FEW, FULL, LANES
-from hysteresis_bench.kernels.linear_stage import SAME_STEP, followed
+from hysteresis_bench.kernels.bouc_wen import FEW, FULL, LANES, series
+from hysteresis_bench.kernels.elementary import exponential
+from hysteresis_bench.kernels.linear_stage import SAME_STEP
 
-# Rows of one work array, the last four for every lag; unsigned, as in `bouc_wen`.
-NOW, CHANGE, TOTAL, KEPT, PASSED, DEVIATION, WEIGHT = (np.uint64(row * LANES) for row in range(7))
+# Rows of one work array, the last four for every lag; unsigned, as in `bouc_wen`. Four samples from NOW on.
+BEFORE, NOW = (np.uint64(row * LANES) for row in range(2))
+KEPT, PASSED, DEVIATION, WEIGHT = (np.uint64(row * LANES) for row in range(5, 9))
+ROW, TWO = np.uint64(LANES), np.uint64(2 * LANES)
+
+
+SHORT = 0.125
+"""Steps over a time constant below which the series is to the last digit."""
 
 
 @njit(cache=True, error_model="numpy")
@@ -37,20 +44,18 @@ def _decays(step: float, time_constant: Array, kept: Array, passed: Array) -> No
 
 
 @njit(inline="always", error_model="numpy")
-def _lag_prepared(stage, duration):  # type: ignore[no-untyped-def]
-    time_constant, kept, passed, _ = stage
-    _decays(duration, time_constant, kept, passed)
+def _decays_again(step, time_constant, kept, passed):  # type: ignore[no-untyped-def]
+    """As `_decays` to 5e-15, side by side: for an uneven grid, where every step asks for them.
 
-
-@njit(inline="always", error_model="numpy")
-def _lag_advanced(stage, i, duration, u, v):  # type: ignore[no-untyped-def]
-    _, kept, passed, deviation = stage
-    columns = u.shape[1]
-    for j in range(kept.size):
-        now = u[i, j] if columns > 1 else u[i, 0]
-        before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
-        deviation[j] = kept[j] * deviation[j] - passed[j] * (now - before)
-        v[i, j] = now + deviation[j]
+    time_constant, kept, passed : padded to a multiple of FULL
+    """
+    for j in range(time_constant.size // FULL * FULL):
+        lags = time_constant[j] > 0.0
+        x = step / time_constant[j]
+        decay = exponential(-x)
+        near = series(min(x, SHORT))
+        kept[j] = decay if lags else 0.0
+        passed[j] = (near if x < SHORT else (1.0 - decay) / x) if lags else 0.0
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -62,64 +67,126 @@ def lag(time: Array, u: Array, time_constant: Array) -> Array:
     time_constant : float64[swarm]                        tau >= 0, unit of time; 0: v = u to the last bit
     -> float64[samples, swarm]                            v, unit of u, within the range of u
     """
-    swarm = time_constant.size
-    v = np.empty((u.shape[0], swarm))
-    stage = (time_constant, np.empty(swarm), np.empty(swarm), np.zeros(swarm))
-    followed(_lag_prepared, _lag_advanced, stage, time, u, v)
+    samples, columns, swarm = u.shape[0], u.shape[1], time_constant.size
+    v = np.empty((samples, swarm))
+    constants = np.zeros(-(-swarm // FULL) * FULL)
+    constants[:swarm] = time_constant
+    kept, passed, deviation = np.empty(constants.size), np.empty(constants.size), np.zeros(swarm)
+    for j in range(swarm):
+        v[0, j] = u[0, j if columns > 1 else 0]
+    known = 0.0
+    for i in range(1, samples):
+        step = time[i] - time[i - 1]
+        if abs(step - known) > SAME_STEP * known:
+            if known == 0.0:
+                _decays(step, constants, kept, passed)
+            else:
+                _decays_again(step, constants, kept, passed)
+            known = step
+        if columns > 1:
+            for j in range(swarm):
+                deviation[j] = kept[j] * deviation[j] - passed[j] * (u[i, j] - u[i - 1, j])
+                v[i, j] = u[i, j] + deviation[j]
+        else:
+            for j in range(swarm):
+                deviation[j] = kept[j] * deviation[j] - passed[j] * (u[i, 0] - u[i - 1, 0])
+                v[i, j] = u[i, 0] + deviation[j]
     return v
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _late(u, weights, work, row, lanes, swarm, lags, v):  # type: ignore[no-untyped-def]
-    """One sample of all lags, flat u and v from `row` on;  weights : has every lag its own? else the sum has one"""
-    shared = u.size < v.size
-    if shared:
-        i = row // swarm
-        x, change = u[i], u[i] - u[i - np.uint64(1)]
-        for j in range(lanes):
-            work[NOW + j] = x
-            work[CHANGE + j] = change
-    else:
-        for j in range(lanes):
-            now = u[row + j]
-            work[CHANGE + j] = now - work[NOW + j]
-            work[NOW + j] = now
+def _late(work, weights, lanes, lags):  # type: ignore[no-untyped-def]
+    """One sample of all lags.  weights : has every lag its own? else the sum has one"""
     for j in range(lanes):
-        total = work[NOW + j] if weights else 0.0
+        now = work[NOW + j]
+        change = now - work[BEFORE + j]
+        total = now if weights else 0.0
         for k in range(lags):
             lag = np.uint64(k * 4 * LANES) + j
-            late = work[KEPT + lag] * work[DEVIATION + lag] - work[PASSED + lag] * work[CHANGE + j]
+            late = work[KEPT + lag] * work[DEVIATION + lag] - work[PASSED + lag] * change
             work[DEVIATION + lag] = late
             total += work[WEIGHT + lag] * late if weights else late
-        work[TOTAL + j] = total if weights else work[NOW + j] + work[WEIGHT + j] * total
-    for j in range(lanes):
-        v[row + j] = work[TOTAL + j]
+        work[BEFORE + j] = now
+        work[NOW + j] = total if weights else now + work[WEIGHT + j] * total
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _four_late(work, weights, lanes, lags):  # type: ignore[no-untyped-def]
+    """Four samples as in `_late`: what a lag knows is read and written once."""
+    for j in range(lanes):
+        before, first, second = work[BEFORE + j], work[NOW + j], work[NOW + ROW + j]
+        third, fourth = work[NOW + TWO + j], work[NOW + TWO + ROW + j]
+        to_first, to_second, to_third, to_fourth = first - before, second - first, third - second, fourth - third
+        a, b, c, d = (first, second, third, fourth) if weights else (0.0, 0.0, 0.0, 0.0)
+        for k in range(lags):
+            lag = np.uint64(k * 4 * LANES) + j
+            kept, passed, weight = work[KEPT + lag], work[PASSED + lag], work[WEIGHT + lag] if weights else 1.0
+            late = kept * work[DEVIATION + lag] - passed * to_first
+            a += weight * late if weights else late
+            late = kept * late - passed * to_second
+            b += weight * late if weights else late
+            late = kept * late - passed * to_third
+            c += weight * late if weights else late
+            late = kept * late - passed * to_fourth
+            d += weight * late if weights else late
+            work[DEVIATION + lag] = late
+        work[BEFORE + j] = fourth
+        share = work[WEIGHT + j]
+        work[NOW + j] = a if weights else first + share * a
+        work[NOW + ROW + j] = b if weights else second + share * b
+        work[NOW + TWO + j] = c if weights else third + share * c
+        work[NOW + TWO + ROW + j] = d if weights else fourth + share * d
+
+
+@njit(inline="always", error_model="numpy")
 def _lags(time, u, weights, time_constants, v, each, lags):  # type: ignore[no-untyped-def]
     """lags : at least as many as there are; a constant, or no loop is vectorised"""
     samples, swarm = u.shape[0], time_constants.shape[1]
-    inputs, outputs, wide = u.ravel(), v.reshape(samples * swarm), np.uint64(swarm)
+    shared = u.shape[1] < swarm
+    inputs, outputs = u.ravel(), v.reshape(samples * swarm)
     for first in range((swarm - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
         used = min(LANES, swarm - first)
         full = -(-used // FULL) * FULL if used > FEW else used
-        rows = np.zeros((4 * lags + 3, LANES))
-        work = rows.reshape((4 * lags + 3) * LANES)
+        rows = np.zeros((4 * lags + 5, LANES))
+        work = rows.reshape((4 * lags + 5) * LANES)
         for k in range(weights.shape[0]):
-            rows[6 + 4 * k, :used] = weights[k, first : first + used]
+            rows[8 + 4 * k, :used] = weights[k, first : first + used]
         for j in range(first, first + used):
-            work[NOW + np.uint64(j - first)] = u[0, j if u.shape[1] > 1 else 0]
+            work[BEFORE + np.uint64(j - first)] = u[0, j if u.shape[1] > 1 else 0]
             v[0, j] = u[0, j if u.shape[1] > 1 else 0]
+        constants = np.zeros((time_constants.shape[0], -(-used // FULL) * FULL))
+        constants[:, :used] = time_constants[:, first : first + used]
         known = 0.0
-        for i in range(1, samples):
+        i, even = 1, 1  # the next sample, and up to where steps are known to be equal
+        while i < samples:
+            even = max(even, i + 1)
             step = time[i] - time[i - 1]
             if abs(step - known) > SAME_STEP * known:
-                known = step
                 for k in range(time_constants.shape[0]):
-                    _decays(step, time_constants[k, first : first + used], rows[3 + 4 * k], rows[4 + 4 * k])
-            lanes = np.uint64(full if i + 1 < samples else used)
-            _late(inputs, each, work, np.uint64(i * swarm + first), lanes, wide, lags, outputs)
+                    if known == 0.0:
+                        _decays(step, constants[k], rows[5 + 4 * k], rows[6 + 4 * k])
+                    else:
+                        _decays_again(step, constants[k], rows[5 + 4 * k], rows[6 + 4 * k])
+                known = step
+            while even < min(i + 4, samples) and abs(time[even] - time[even - 1] - known) <= SAME_STEP * known:
+                even += 1
+            together = 4 if even >= i + 4 else 1
+            for k in range(together):
+                lanes = np.uint64(full if i + k + 1 < samples else used)
+                row, place = np.uint64((i + k) * swarm + first), np.uint64(k * LANES) + NOW
+                for j in range(lanes):
+                    work[place + j] = inputs[i + k] if shared else inputs[row + j]
+            lanes = np.uint64(full if i + together < samples else used)
+            if together == 4:
+                _four_late(work, each, lanes, lags)
+            else:
+                _late(work, each, lanes, lags)
+            for k in range(together):
+                lanes = np.uint64(full if i + k + 1 < samples else used)
+                row, place = np.uint64((i + k) * swarm + first), np.uint64(k * LANES) + NOW
+                for j in range(lanes):
+                    outputs[row + j] = work[place + j]
+            i += together
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})

@@ -17,7 +17,8 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.linear_stage import followed
+from hysteresis_bench.kernels.bouc_wen import FEW, FULL, LANES
+from hysteresis_bench.kernels.linear_stage import SAME_STEP
 
 RUNAWAY = 1e9
 """A deviation is cut at this many times the range of the input: only an unstable stage (c < 0 or k <= 0)
@@ -25,6 +26,10 @@ comes near."""
 
 STEEPEST = 200.0
 """An unstable stage grows by at most e^200 a step, so that nothing overflows."""
+
+# Rows of one work array; unsigned, as in `bouc_wen`.
+INPUT, DEVIATION, VELOCITY, KEPT, SINE, LOST, FALLEN, SLOWED = (np.uint64(row * LANES) for row in range(8))
+ROWS = 8
 
 
 @njit(cache=True, error_model="numpy")
@@ -82,27 +87,59 @@ def modes(step: float, u: Array, frequency: float, dampings: Array) -> Array:
     return found
 
 
-@njit(inline="always", error_model="numpy")
-def _prepared(stage, duration):  # type: ignore[no-untyped-def]
-    damping, stiffness, _, step, _, _ = stage
-    for j in range(stiffness.size):
-        step[0, j], step[1, j], step[2, j], step[3, j], step[4, j] = transition(damping[j], stiffness[j], duration)
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _advanced(work, j, slope):  # type: ignore[no-untyped-def]
+    """The deviation of one lane a sample on."""
+    e, v = work[DEVIATION + j], work[VELOCITY + j]
+    after = work[KEPT + j] * e + work[SINE + j] * v - work[LOST + j] * slope
+    work[VELOCITY + j] = work[FALLEN + j] * e + work[SLOWED + j] * v + (1.0 - work[KEPT + j]) * slope
+    work[DEVIATION + j] = after
+    return after
 
 
-@njit(inline="always", error_model="numpy")
-def _advanced(stage, i, duration, u, y):  # type: ignore[no-untyped-def]
-    _, _, bound, step, deviation, velocity = stage
-    columns, rate = u.shape[1], 1.0 / duration
-    fastest = bound * rate
-    for j in range(y.shape[1]):
-        now = u[i, j] if columns > 1 else u[i, 0]
-        before = u[i - 1, j] if columns > 1 else u[i - 1, 0]
-        slope = (now - before) * rate
-        e = step[0, j] * deviation[j] + step[1, j] * velocity[j] - step[4, j] * slope
-        v = step[2, j] * deviation[j] + step[3, j] * velocity[j] + (1.0 - step[0, j]) * slope
-        deviation[j] = min(max(e, -bound), bound)
-        velocity[j] = min(max(v, -fastest), fastest)
-        y[i, j] = now + deviation[j]
+@njit(inline="always", error_model="numpy", fastmath={"contract"})
+def _side_by_side(time, u, damping, stiffness, bound, y, first):  # type: ignore[no-untyped-def]
+    """As `second_order`, for the LANES stages from `first` on, into y. bound : of a deviation, may be infinite
+
+    Those that pad them are at rest; they read and write what follows in u and y, but for the last sample.
+    """
+    samples, swarm = y.shape
+    shared, bounded = u.shape[1] == 1, bound < np.inf
+    inputs, outputs = u.ravel(), y.reshape(samples * swarm)
+    used = min(LANES, swarm - first)
+    full = -(-used // FULL) * FULL if used > FEW else used
+    work = np.zeros(ROWS * LANES)
+    for k in range(first, first + used):
+        work[INPUT + np.uint64(k - first)] = y[0, k] = u[0, 0 if shared else k]
+    known = 0.0
+    for i in range(1, samples):
+        duration = time[i] - time[i - 1]
+        rate = 1.0 / duration
+        if abs(duration - known) > SAME_STEP * known:
+            known = duration
+            for k in range(first, first + used):
+                lane = np.uint64(k - first)
+                kept, sine, fallen, slowed, lost = transition(damping[k], stiffness[k], duration)
+                work[KEPT + lane], work[SINE + lane], work[LOST + lane] = kept, sine, lost
+                work[FALLEN + lane], work[SLOWED + lane] = fallen, slowed
+        lanes = np.uint64(full if i + 1 < samples else used)
+        row = np.uint64(i * swarm + first)
+        if shared:
+            x = u[i, 0]
+            slope = (x - u[i - 1, 0]) * rate
+            for j in range(lanes):
+                outputs[row + j] = x + _advanced(work, j, slope)
+        else:
+            for j in range(lanes):
+                now = inputs[row + j]
+                slope = (now - work[INPUT + j]) * rate
+                work[INPUT + j] = now
+                outputs[row + j] = now + _advanced(work, j, slope)
+        if bounded:
+            for j in range(lanes):
+                work[DEVIATION + j] = min(max(work[DEVIATION + j], -bound), bound)
+                work[VELOCITY + j] = min(max(work[VELOCITY + j], -bound * rate), bound * rate)
+                outputs[row + j] = (u[i, 0] if shared else work[INPUT + j]) + work[DEVIATION + j]
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -115,9 +152,9 @@ def second_order(time: Array, u: Array, damping: Array, stiffness: Array) -> Arr
     stiffness : float64[swarm]          k = (natural angular frequency)², 1/s²; infinite: y = u to the last bit
     -> float64[samples, swarm]          y, in the unit of u; finite also for an unstable stage (RUNAWAY)
     """
-    swarm = stiffness.size
-    y = np.empty((u.shape[0], swarm))
-    bound = RUNAWAY * (np.max(u) - np.min(u))
-    stage = (damping, stiffness, bound, np.empty((5, swarm)), np.zeros(swarm), np.zeros(swarm))
-    followed(_prepared, _advanced, stage, time, u, y)
+    stable = np.all((damping >= 0.0) & (stiffness > 0.0))
+    bound = np.inf if stable else RUNAWAY * (np.max(u) - np.min(u))
+    y = np.empty((u.shape[0], stiffness.size))
+    for first in range((stiffness.size - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
+        _side_by_side(time, u, damping, stiffness, bound, y, first)
     return y

@@ -118,7 +118,7 @@ def test_trace_keeps_improvements_and_tells_the_best_at_every_count(polynomial_p
 
 def test_a_swarm_cut_into_blocks_scores_as_one(polynomial_problem):
     long = Problem(polynomial_problem.system, (record(200_000),), polynomial_problem.space, LOSSES["rmse"])
-    assert (polynomial_problem.block, long.block) == (64, 41)
+    assert (polynomial_problem.block, long.block) == (64, 16)
     points = np.random.default_rng(3).random((2, 50))
     one_by_one = [long.losses(points[:, [column]])[0] for column in range(50)]
     assert long.losses(points) == pytest.approx(one_by_one, rel=1e-12)

@@ -9,7 +9,13 @@ def test_it_is_linear_interpolation_of_the_past():
     rng = np.random.default_rng(1)
     u = rng.normal(size=(200, 5))
     durations = np.array([0.0, 1e-6, 0.03, 0.7, 1e3])
-    for time in (np.cumsum(rng.uniform(0.001, 0.1, 200)), np.arange(200) * 0.05, 1e4 + np.arange(200) / 300):
+    even = np.arange(200) * 0.05
+    rounded, jittered, uneven = (
+        even.round(1) + 1e-3 * even,
+        even + rng.uniform(-0.02, 0.02, 200),
+        rng.uniform(0.001, 0.1, 200),
+    )
+    for time in (even, rounded, jittered, np.cumsum(uneven), np.logspace(-9, 1, 200), 1e4 + np.arange(200) / 300):
         for inputs in (u, u[:, :1]):
             v = delay(time, inputs, durations)
             for j, duration in enumerate(durations):

@@ -61,10 +61,11 @@ class BoucWen(Model):
 
     def _plain(self, u: Array, p: Any) -> Array:
         from hysteresis_bench.kernels.bouc_wen import bouc_wen
-        from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
 
         if self.n == 1.0:
             return bouc_wen(u, p.alpha, p.beta, p.gamma, p.d)
+        from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
+
         return bouc_wen_power(u, p.alpha, p.beta, p.gamma, p.d, float(self.n))
 
     def _dragged(self, time: Array, u: Array, coefficient: Array, p: Any) -> Array:
