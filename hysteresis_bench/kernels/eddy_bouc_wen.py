@@ -9,6 +9,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.bouc_wen import paths
 from hysteresis_bench.kernels.bouc_wen_step import RUNAWAY
 from hysteresis_bench.kernels.bouc_wen_tried import ROWS, kept, prepared, tried
+from hysteresis_bench.kernels.eddy_bouc_wen_linear import eddy_bouc_wen_linear
 from hysteresis_bench.kernels.eddy_current import COEFFICIENT, NEW, simulated
 from hysteresis_bench.kernels.lanes import GROUPS, LANES, Y, Z
 
@@ -31,6 +32,8 @@ def eddy_bouc_wen(
     the others, and the result, as in `bouc_wen` (n = 1) and `bouc_wen_power`
     -> float64[samples, swarm]        C order; at rest at the first sample, z = u there
     """
+    if n == 1.0:
+        return eddy_bouc_wen_linear(time, u, coefficient, alpha, beta, gamma, d)
     samples, columns = u.shape
     swarm = d.size
     length = paths(u)
