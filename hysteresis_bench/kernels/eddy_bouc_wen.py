@@ -15,6 +15,19 @@ from hysteresis_bench.kernels.lanes import GROUPS, LANES, Y, Z
 
 
 @njit(cache=True, error_model="numpy")
+def _tried(n: float, work: Array, left: Array) -> None:
+    for g in range(left.size):
+        if left[g] > 0:
+            tried(n, work[g])
+
+
+@njit(cache=True, error_model="numpy")
+def _kept(n: float, work: Array) -> None:
+    for g in range(work.shape[0]):
+        kept(n, work[g])
+
+
+@njit(cache=True, error_model="numpy")
 def eddy_bouc_wen(
     time: Array,
     u: Array,
@@ -51,5 +64,5 @@ def eddy_bouc_wen(
                 s[Z + j] = u[0, column]
                 s[Y + j] = d[p] * u[0, column]
                 v[0, p] = s[Y + j]
-        simulated(tried, kept, n, work, time, u, first, v)
+        simulated(_tried, _kept, n, work, time, u, first, v)
     return v
