@@ -15,8 +15,12 @@ OPERATORS: Mapping[type[ast.AST], str] = {
 }  # fmt: skip
 ATTRIBUTES = {"inf": "INFINITY", "nan": "NAN", "pi": "3.141592653589793"}
 BUILTINS = {"abs": "fabs", "min": "smaller", "max": "larger", "int": "(int)"}
-HELPERS = """static double smaller(double a, double b) { return b < a ? b : a; }
-static double larger(double a, double b) { return b > a ? b : a; }"""
+HELPERS = """static inline double smaller(double a, double b) { return b < a ? b : a; }
+static inline double larger(double a, double b) { return b > a ? b : a; }"""
+WORDS = """auto break case char const continue default do double else enum extern float for goto if inline int long
+register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while"""
+TAKEN = frozenset((*WORDS.split(), "several", "found", "result", "i_"))
+"""Words of C99, and names that are written here."""
 
 
 def number(value: float) -> str:
@@ -28,6 +32,11 @@ def number(value: float) -> str:
     return repr(float(value))
 
 
+def named(name: str) -> str:
+    """A variable's name, another where C has taken it."""
+    return f"{name}_" if name in TAKEN else name
+
+
 def c_of(function: Function, kinds: Mapping[str, list[str]]) -> str:
     """The definition; kinds : of the arguments of every function."""
     return _Writer(function, kinds).definition()
@@ -36,10 +45,10 @@ def c_of(function: Function, kinds: Mapping[str, list[str]]) -> str:
 def prototype(function: Function) -> str:
     """The first line of a definition."""
     kinds = {ARRAY: "double *", WHOLE: "int "}
-    given = [f"{kinds.get(kind, 'double ')}{name}" for name, kind in function.arguments]
+    given = [f"{kinds.get(kind, 'double ')}{named(name)}" for name, kind in function.arguments]
     several = function.returns > 1
     return (
-        f"static {'void' if several else 'double'} {function.name}"
+        f"static inline {'void' if several else 'double'} {function.name}"
         f"({', '.join([*given, *(['double *result'] if several else [])])})"
     )
 
@@ -60,7 +69,7 @@ class _Writer:
 
     def definition(self) -> str:
         body = [line for node in self.function.tree.body for line in self.statement(node)]
-        made = [f"{'int' if name in self.whole else 'double'} {name};" for name in self.locals]
+        made = [f"{'int' if name in self.whole else 'double'} {named(name)};" for name in self.locals]
         temporary = [f"double several[{self.results}];"] if self.results else []
         lines = ["    " + line for line in (*made, *temporary, *body)]
         comment = f"/* {self.function.summary} */\n" if self.function.summary else ""
@@ -104,7 +113,8 @@ class _Writer:
             case ast.For(ast.Name(name), ast.Call(ast.Name("range"), bounds), body, []):
                 low = "0" if len(bounds) == 1 else self.expression(bounds[0], True)
                 high = self.expression(bounds[-1], True)
-                yield f"for (int {name} = {low}; {name} < {high}; {name}++) {{"
+                counter = named(name)
+                yield f"for (int {counter} = {low}; {counter} < {high}; {counter}++) {{"
                 yield from self.block(body)
                 yield "}"
             case ast.Return(ast.Tuple(values)):
@@ -133,7 +143,7 @@ class _Writer:
             case ast.Name(name):
                 constant = self.function.numbers.get(name)
                 if constant is None or name in self.locals:
-                    return name
+                    return named(name)
                 return str(int(constant)) if whole else number(constant)
             case ast.Attribute(_, name):
                 return ATTRIBUTES[name]

@@ -34,6 +34,9 @@ NEAR = 0.25
 SURELY = 0.89
 """g takes at least this share of size / drive to a size where its rate is at most NEAR, as the series says."""
 
+SMALL = 1e-4
+"""The same share, up to which the first terms of the series in it and of its inverse are enough: the next is 1e-13."""
+
 FAR = 1e8
 """The same share, from which on the drive is left out: h runs away, or comes back from there."""
 
@@ -159,11 +162,36 @@ def integrated(g: float, drive: float, along: float, against: float, n: float, w
 
 
 @njit(cache=True, error_model="numpy")
+def _to_the(size: float, n: float) -> float:
+    """size^n, faster where n is 2 or 3."""
+    if n == 2.0:
+        return size * size
+    return size * size * size if n == 3.0 else size**n
+
+
+@njit(cache=True, error_model="numpy")
+def _through_0(g: float, drive: float, along: float, against: float, n: float, width: float) -> float:
+    """g after an increment that takes it through 0, by the first terms of the series; -1 where they are not enough."""
+    share = -against * _to_the(-g, n) / drive
+    since = -g / drive * (1.0 + share * (1.0 / (n + 1.0) + share / (2.0 * n + 1.0)))
+    straight = drive * (width - since)
+    if not (abs(share) <= SMALL and straight >= 0.0):
+        return -1.0
+    share = along * _to_the(straight, n) / drive
+    found = straight * (1.0 - share / (n + 1.0) * (1.0 - share * n / (2.0 * n + 1.0)))
+    return found if abs(share) <= SMALL else -1.0
+
+
+@njit(cache=True, error_model="numpy")
 def grown(g: float, drive: float, along: float, against: float, n: float, width: float, bound: float) -> float:
     """g after an increment of this width >= 0, |g| cut at `bound`: exact for n = 1, adaptive for n > 1."""
     if width == 0.0:
         return g
     if n != 1.0:
+        if g <= 0.0 < drive:
+            through = _through_0(g, drive, along, against, n, width)
+            if 0.0 <= through <= bound:
+                return through
         return integrated(g, drive, along, against, n, width, bound)
     rate = against if g < 0.0 else along
     free = relaxed(g, drive, rate, weakened(rate, width))

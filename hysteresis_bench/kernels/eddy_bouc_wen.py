@@ -9,8 +9,22 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.bouc_wen import paths
 from hysteresis_bench.kernels.bouc_wen_step import RUNAWAY
 from hysteresis_bench.kernels.bouc_wen_tried import ROWS, kept, prepared, tried
+from hysteresis_bench.kernels.eddy_bouc_wen_linear import eddy_bouc_wen_linear
 from hysteresis_bench.kernels.eddy_current import COEFFICIENT, NEW, simulated
 from hysteresis_bench.kernels.lanes import GROUPS, LANES, Y, Z
+
+
+@njit(cache=True, error_model="numpy")
+def _tried(n: float, work: Array, left: Array) -> None:
+    for g in range(left.size):
+        if left[g] > 0:
+            tried(n, work[g])
+
+
+@njit(cache=True, error_model="numpy")
+def _kept(n: float, work: Array) -> None:
+    for g in range(work.shape[0]):
+        kept(n, work[g])
 
 
 @njit(cache=True, error_model="numpy")
@@ -31,6 +45,8 @@ def eddy_bouc_wen(
     the others, and the result, as in `bouc_wen` (n = 1) and `bouc_wen_power`
     -> float64[samples, swarm]        C order; at rest at the first sample, z = u there
     """
+    if n == 1.0:
+        return eddy_bouc_wen_linear(time, u, coefficient, alpha, beta, gamma, d)
     samples, columns = u.shape
     swarm = d.size
     length = paths(u)
@@ -48,5 +64,5 @@ def eddy_bouc_wen(
                 s[Z + j] = u[0, column]
                 s[Y + j] = d[p] * u[0, column]
                 v[0, p] = s[Y + j]
-        simulated(tried, kept, n, work, time, u, first, v)
+        simulated(_tried, _kept, n, work, time, u, first, v)
     return v

@@ -20,7 +20,7 @@ Over one sample of duration h the mean of both sides is taken with a weight thet
 theta is such that a law of constant slope, which makes this a first-order lag of e times the slope, is exact for
 an input that is linear between its samples [3]. It goes from 1/2, second order, where that lag is longer than h, to
 1 where it is shorter, so that nothing rings. The left side grows with z_i along the one branch of the law that leaves
-z_j: one root, always bracketed, found without a derivative as in [4], from the slope of the step before on.
+z_j: one root, always bracketed, found without a derivative as in [4], from the slope that the last two steps lead to.
 
 Particles are solved for in groups of `lanes`; groups that are done wait for the others.
 """
@@ -43,10 +43,12 @@ USUAL = 8
 """Trials of one step by interpolation alone; then every other one halves the bracket."""
 MOST = 100
 """Trials of one step; half a dozen are usual."""
+STEADY = 0.5
+"""From step to step the slope is taken to change by at most this share."""
 
-# Rows of a group's work: inputs, the output's slope before the step; the equation; the bracket, the distance of the
-# trial from Z, the width that ends the search.
-COEFFICIENT, U, NEW, SLOPE, RATE, THETA, BEFORE, ALONG = ((SOLVER + row) * LANES for row in range(8))
+# Rows of a group's work: the input, the output's slopes over the two steps before; the equation; the bracket, the
+# distance of the trial from Z, the width that ends the search.
+COEFFICIENT, NEW, SLOPE, SLOPE_BEFORE, RATE, THETA, BEFORE, ALONG = ((SOLVER + row) * LANES for row in range(8))
 LOW, BELOW, HIGH, ABOVE, WAY, NARROW = ((SOLVER + row) * LANES for row in range(8, 14))
 
 
@@ -62,110 +64,128 @@ def end_weight(x):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def _begun(s: Array) -> int:
-    """The equation from the law's output at the new input; next, the end of the bracket is tried
-    -> for how many lanes that is somewhere else.
+def _driven(s: Array, u: Array, first: int, left: Array) -> None:
+    """The next input is tried first; u has one for all particles, or one each."""
+    shared, last = u.size == 1, u.size - 1
+    for g in range(left.size):
+        left[g] = LANES
+        for j in range(min(LANES, s.shape[1])):
+            s[g, TRIAL + j] = u[0] if shared else u[min(first + g * LANES + j, last)]
+            s[g, OPEN + j] = 1.0
+
+
+@njit(cache=True, error_model="numpy")
+def _begun(s: Array, duration: float, left: Array) -> None:
+    """The equation from the law's output at the new input; next, the end of the bracket is tried where that is
+    somewhere else.
 
     The answer stays between Z and the inputs.
     """
-    elsewhere = 0
-    for j in range(LANES):
-        u, new, z, rate = s[U + j], s[NEW + j], s[Z + j], s[RATE + j]
-        lead, drag = new - z, rate * (s[OUT + j] - s[Y + j])
-        weight = end_weight(lead / drag)
-        theta = weight if lead * drag > 0.0 else 1.0
-        behind = z - u
-        undragged = new - (1.0 - theta) / theta * behind
-        undragged = min(max(undragged, min(u, new)), max(u, new))
-        s[THETA + j] = theta
-        s[BEFORE + j] = -abs(behind - theta * (new - u))
-        s[ALONG + j] = 1.0 if undragged > z else -1.0
-        s[WAY + j] = abs(undragged - z)
-        s[TRIAL + j] = undragged
-        elsewhere += 1 if undragged != new else 0
-    return elsewhere
+    for g in range(left.size):
+        elsewhere = 0
+        for j in range(LANES):
+            u, new, z, rate = s[g, NEW + j], s[g, TRIAL + j], s[g, Z + j], s[g, COEFFICIENT + j] / duration
+            lead, drag = new - z, rate * (s[g, OUT + j] - s[g, Y + j])
+            weight = end_weight(lead / drag)
+            theta = weight if lead * drag > 0.0 else 1.0
+            behind = z - u
+            undragged = new - (1.0 - theta) / theta * behind
+            undragged = min(max(undragged, min(u, new)), max(u, new))
+            s[g, NEW + j] = new
+            s[g, RATE + j] = rate
+            s[g, THETA + j] = theta
+            s[g, BEFORE + j] = -abs(behind - theta * (new - u))
+            s[g, ALONG + j] = 1.0 if undragged > z else -1.0
+            s[g, WAY + j] = abs(undragged - z)
+            s[g, TRIAL + j] = undragged
+            elsewhere += 1 if undragged != new else 0
+        left[g] = elsewhere
 
 
 @njit(inline="always", error_model="numpy")
-def _value(s, j):  # type: ignore[no-untyped-def]
+def _value(s, g, j):  # type: ignore[no-untyped-def]
     """The equation's left side at the trial. Ours: where the law moves against its input, there is no drag."""
-    return s[BEFORE + j] + s[THETA + j] * s[WAY + j] + s[RATE + j] * max(s[ALONG + j] * (s[OUT + j] - s[Y + j]), 0.0)
+    rise = s[g, ALONG + j] * (s[g, OUT + j] - s[g, Y + j])
+    return s[g, BEFORE + j] + s[g, THETA + j] * s[g, WAY + j] + s[g, RATE + j] * max(rise, 0.0)
 
 
 @njit(cache=True, error_model="numpy")
-def _bracketed(s: Array) -> int:
-    """The bracket from Z to the trial; next, the last step's slope is tried, or the secant -> number of open lanes."""
-    left = 0
-    for j in range(LANES):
-        before, high, along = s[BEFORE + j], s[WAY + j], s[ALONG + j]
-        above = _value(s, j)
-        open_ = above > TOLERANCE * -before
-        way = -before / (s[THETA + j] + s[RATE + j] * max(along * s[SLOPE + j], 0.0))
-        way = way if way < high else -before * high / (above - before)
-        s[LOW + j], s[BELOW + j], s[HIGH + j], s[ABOVE + j] = 0.0, before, high, above
-        s[NARROW + j] = TOLERANCE * high
-        s[WAY + j] = way
-        s[TRIAL + j] = s[Z + j] + along * way if open_ else s[TRIAL + j]
-        s[OPEN + j] = 1.0 if open_ else 0.0
-        left += 1 if open_ else 0
-    return left
+def _bracketed(s: Array, left: Array) -> int:
+    """The bracket from Z to the trial; next, the slope is tried that the last two steps lead to, or the secant
+    -> number of open lanes."""
+    total = 0
+    for g in range(left.size):
+        still = 0
+        for j in range(LANES):
+            before, high, along = s[g, BEFORE + j], s[g, WAY + j], s[g, ALONG + j]
+            above = _value(s, g, j)
+            open_ = above > TOLERANCE * -before
+            last, earlier = along * s[g, SLOPE + j], along * s[g, SLOPE_BEFORE + j]
+            slope = last + min(max(last - earlier, -STEADY * last), STEADY * last) if earlier > 0.0 else last
+            way = -before / (s[g, THETA + j] + s[g, RATE + j] * max(slope, 0.0))
+            way = way if way < high else -before * high / (above - before)
+            s[g, LOW + j], s[g, BELOW + j], s[g, HIGH + j], s[g, ABOVE + j] = 0.0, before, high, above
+            s[g, NARROW + j] = TOLERANCE * high
+            s[g, WAY + j] = way
+            s[g, TRIAL + j] = s[g, Z + j] + along * way if open_ else s[g, TRIAL + j]
+            s[g, OPEN + j] = 1.0 if open_ else 0.0
+            still += 1 if open_ else 0
+        left[g] = still
+        total += still
+    return total
 
 
 @njit(cache=True, error_model="numpy")
-def _narrowed(s: Array, halved: bool) -> int:
+def _narrowed(s: Array, halved: bool, left: Array) -> int:
     """The trial replaces the end on its side of the root, which is dropped; next, the inverse parabola through the
     three is tried [4], or the middle where it leads out of the bracket -> number of open lanes."""
-    left = 0
-    for j in range(LANES):
-        low, below, high, above, way = s[LOW + j], s[BELOW + j], s[HIGH + j], s[ABOVE + j], s[WAY + j]
-        value = _value(s, j)
-        open_ = (s[OPEN + j] > 0.0) & (abs(value) > TOLERANCE * -s[BEFORE + j]) & (high - low > s[NARROW + j])
-        short = value < 0.0
-        dropped, lost = low if short else high, below if short else above
-        other, opposite = high if short else low, above if short else below
-        s[LOW + j], s[BELOW + j] = way if short else low, value if short else below
-        s[HIGH + j], s[ABOVE + j] = high if short else way, above if short else value
-        rise, fall = opposite - value, lost - value
-        to_other, to_dropped = other - way, dropped - way
-        share = value * (to_dropped * opposite * rise - lost * to_other * fall)
-        share = share / ((lost - opposite) * rise * fall * to_other)
-        share = share if (share > 0.0) & (share < 1.0) & (not halved) else 0.5
-        way += share * to_other
-        s[WAY + j] = way
-        s[TRIAL + j] = s[Z + j] + s[ALONG + j] * way if open_ else s[TRIAL + j]
-        s[OPEN + j] = 1.0 if open_ else 0.0
-        left += 1 if open_ else 0
-    return left
+    total = 0
+    for g in range(left.size):
+        if left[g] == 0:
+            continue
+        still = 0
+        for j in range(LANES):
+            low, below, high, above = s[g, LOW + j], s[g, BELOW + j], s[g, HIGH + j], s[g, ABOVE + j]
+            way, value = s[g, WAY + j], _value(s, g, j)
+            wide = (abs(value) > TOLERANCE * -s[g, BEFORE + j]) & (high - low > s[g, NARROW + j])
+            open_ = (s[g, OPEN + j] > 0.0) & wide
+            under = value < 0.0
+            dropped, lost = low if under else high, below if under else above
+            other, opposite = high if under else low, above if under else below
+            s[g, LOW + j], s[g, BELOW + j] = way if under else low, value if under else below
+            s[g, HIGH + j], s[g, ABOVE + j] = high if under else way, above if under else value
+            rise, fall = opposite - value, lost - value
+            to_other, to_dropped = other - way, dropped - way
+            share = value * (to_dropped * opposite * rise - lost * to_other * fall)
+            share = share / ((lost - opposite) * rise * fall * to_other)
+            share = share if (share > 0.0) & (share < 1.0) & (not halved) else 0.5
+            way += share * to_other
+            s[g, WAY + j] = way
+            s[g, TRIAL + j] = s[g, Z + j] + s[g, ALONG + j] * way if open_ else s[g, TRIAL + j]
+            s[g, OPEN + j] = 1.0 if open_ else 0.0
+            still += 1 if open_ else 0
+        left[g] = still
+        total += still
+    return total
 
 
 @njit(cache=True, error_model="numpy")
-def _driven(s: Array, u: Array, column: int, duration: float) -> None:
-    """The next input, which is tried first; u has one for all particles, or this group's from `column` on."""
-    shared = u.size == 1
-    for j in range(LANES):
-        new = u[0] if shared else u[min(column + j, u.size - 1)]
-        s[U + j] = s[NEW + j]
-        s[NEW + j] = new
-        s[TRIAL + j] = new
-        s[OPEN + j] = 1.0
-        s[RATE + j] = s[COEFFICIENT + j] / duration
-
-
-@njit(cache=True, error_model="numpy")
-def _moved(s: Array) -> None:
+def _moved(s: Array, left: Array) -> None:
     """The trial is where the step ends; its slope has the sign of the step."""
-    for j in range(LANES):
-        lead, rise = s[TRIAL + j] - s[Z + j], s[OUT + j] - s[Y + j]
-        s[SLOPE + j] = rise / abs(lead) if lead != 0.0 else 0.0
-        s[Z + j] = s[TRIAL + j]
-        s[Y + j] = s[OUT + j]
+    for g in range(left.size):
+        for j in range(min(LANES, s.shape[1])):
+            lead, rise, last = s[g, TRIAL + j] - s[g, Z + j], s[g, OUT + j] - s[g, Y + j], s[g, SLOPE + j]
+            s[g, SLOPE_BEFORE + j] = last
+            s[g, SLOPE + j] = rise / abs(lead) if lead != 0.0 else 0.0
+            s[g, Z + j] = s[g, TRIAL + j]
+            s[g, Y + j] = s[g, OUT + j]
 
 
 # Inlined: a kernel that passed its law to a function of its own could not be cached. Every loop over the groups does
 # one short thing, so that the processor goes on to the next group while it waits for results of this one.
 @njit(error_model="numpy", inline="always")
 def simulated(
-    law: Callable[[Any, Array], None],
+    law: Callable[[Any, Array, Array], None],
     keep: Callable[[Any, Array], None],
     of: Any,
     work: Array,
@@ -176,36 +196,23 @@ def simulated(
 ) -> None:
     """All samples of the particles from `first` on that `work` has room for, into their columns of y.
 
-    law(of, s), keep(of, s) : as in `lanes`;  of : whatever else the law wants
+    law(of, work, left), keep(of, work) : as in `lanes`, for the groups g with left[g] > 0, and for all
+    of : whatever else the law wants
     work : float64[groups, rows LANES]; NEW is the first input, Z and Y the state there
     """
-    groups = work.shape[0]
-    left = np.zeros(groups, dtype=np.int64)
+    left = np.zeros(work.shape[0], dtype=np.int64)
     for i in range(1, time.size):
-        for g in range(groups):
-            _driven(work[g], u[i], first + g * LANES, time[i] - time[i - 1])
-        for g in range(groups):
-            law(of, work[g])
-        for g in range(groups):
-            left[g] = _begun(work[g])
-        for g in range(groups):
-            if left[g] > 0:
-                law(of, work[g])
-        for g in range(groups):
-            left[g] = _bracketed(work[g])
+        _driven(work, u[i], first, left)
+        law(of, work, left)
+        _begun(work, time[i] - time[i - 1], left)
+        law(of, work, left)
+        total = _bracketed(work, left)
         trial = 0
-        while left.any() and trial < MOST:
-            for g in range(groups):
-                if left[g] > 0:
-                    law(of, work[g])
-            for g in range(groups):
-                if left[g] > 0:
-                    left[g] = _narrowed(work[g], trial >= USUAL and trial % 2 == 0)
+        while total > 0 and trial < MOST:
+            law(of, work, left)
+            total = _narrowed(work, trial >= USUAL and trial % 2 == 0, left)
             trial += 1
-        for g in range(groups):
-            keep(of, work[g])
-            _moved(work[g])
-        for g in range(groups):
-            start = first + g * LANES
-            for j in range(min(LANES, y.shape[1] - start)):
-                y[i, start + j] = work[g, Y + j]
+        keep(of, work)
+        _moved(work, left)
+        for p in range(first, min(first + work.shape[0] * LANES, y.shape[1])):
+            y[i, p] = work[(p - first) // LANES, Y + (p - first) % LANES]

@@ -37,9 +37,10 @@ def _switched(nodes: Array, h: float) -> tuple[int, float]:
 
 
 @njit(cache=True, error_model="numpy")
-def _advanced(nodes: Array, s: Array) -> None:
+def _advanced(nodes: Array, work: Array, left: Array) -> None:
     """M where the acting field has moved on to the trial; particles one by one, as their nodes go side by side."""
-    for j in range(LANES):
+    s = work[0]
+    for j in range(LANES if left[0] > 0 else 0):
         if s[OPEN + j] > 0.0:
             z = s[TRIAL + j]
             s[MOVED + j], total = _switched(nodes[j], s[SCALE + j] * z)
@@ -47,8 +48,9 @@ def _advanced(nodes: Array, s: Array) -> None:
 
 
 @njit(cache=True, error_model="numpy")
-def _kept(nodes: Array, s: Array) -> None:
+def _kept(nodes: Array, work: Array) -> None:
     """What the last trial found is the state."""
+    s = work[0]
     for j in range(LANES):
         for k in range(int(s[MOVED + j])):
             nodes[j, STATE, k] = nodes[j, NEXT_STATE, k]
@@ -92,8 +94,8 @@ def eddy_magnetization(
             radii(s[SCALE + j], coercive_field[p], spread[p], offsets, nodes[j, RADIUS])
             s[NEW + j] = s[TRIAL + j] = s[Z + j] = field[0, p if field.shape[1] > 1 else 0]
             s[OPEN + j] = 1.0
-        _advanced(nodes, s)
-        _kept(nodes, s)
+        _advanced(nodes, work, np.ones(1, dtype=np.int64))
+        _kept(nodes, work)
         for j in range(LANES):
             s[Y + j] = s[OUT + j]
             magnetized[0, min(first + j, swarm - 1)] = s[Y + j]

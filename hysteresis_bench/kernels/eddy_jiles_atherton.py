@@ -12,49 +12,57 @@ from hysteresis_bench.kernels.eddy_current import COEFFICIENT, NEW, simulated
 from hysteresis_bench.kernels.jiles_atherton import MU0, advanced, extrapolated, first_anhysteretic
 from hysteresis_bench.kernels.lanes import GROUPS, LANES, LAW, OUT, TRIAL, Y, Z
 
-# Rows of a group: parameters and state as in `jiles_atherton`, and, in the same order, what the last trial found.
+# Rows of a group: parameters and state as in `jiles_atherton`, and what the last trial found.
 ALPHA, INVERSE_A, PULL, K, M_S, C = ((LAW + row) * LANES for row in range(6))
-LAST, MI, D, M, RISE_D, RISE_M = ((LAW + row) * LANES for row in range(6, 12))
-FOUND = 6 * LANES
-WIDTH = (LAW + 18) * LANES
+LAST, MI, D, M, RISE_D, RISE_M, FOUND_MI, FOUND_D, FOUND_M = ((LAW + row) * LANES for row in range(6, 15))
+WIDTH = (LAW + 15) * LANES
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
-def _tried(s, clamped):  # type: ignore[no-untyped-def]
+def _tried(s, left, clamped):  # type: ignore[no-untyped-def]
     """B where the acting field has moved on to the trial; clamped : a constant where it is called."""
-    for j in range(LANES):
-        z = s[TRIAL + j]
-        dH = z - s[Z + j]
-        Mi, D_, M_ = advanced(
-            z, abs(dH), math.copysign(1.0, dH), extrapolated(dH, s[LAST + j]),
-            s[ALPHA + j], s[INVERSE_A + j], s[PULL + j], s[K + j], s[M_S + j], s[C + j],
-            s[MI + j], s[D + j], s[M + j], s[RISE_D + j], s[RISE_M + j], clamped,
-        )  # fmt: skip
-        moved = dH != 0.0
-        before = s[M + j]
-        found = M_ if moved else before  # for itself: the compiler would read back what it has just stored
-        s[FOUND + LAST + j] = dH if moved else s[LAST + j]
-        s[FOUND + MI + j] = Mi if moved else s[MI + j]
-        s[FOUND + D + j] = D_ if moved else s[D + j]
-        s[FOUND + M + j] = found
-        s[FOUND + RISE_D + j] = D_ - s[D + j] if moved else s[RISE_D + j]
-        s[FOUND + RISE_M + j] = M_ - before if moved else s[RISE_M + j]
-        s[OUT + j] = MU0 * (z + found)
+    for g in range(left.size):
+        if left[g] == 0:
+            continue
+        for j in range(LANES):
+            z = s[g, TRIAL + j]
+            dH = z - s[g, Z + j]
+            Mi, D_, M_ = advanced(
+                z, abs(dH), math.copysign(1.0, dH), extrapolated(dH, s[g, LAST + j]),
+                s[g, ALPHA + j], s[g, INVERSE_A + j], s[g, PULL + j], s[g, K + j], s[g, M_S + j], s[g, C + j],
+                s[g, MI + j], s[g, D + j], s[g, M + j], s[g, RISE_D + j], s[g, RISE_M + j], clamped,
+            )  # fmt: skip
+            found = M_ if dH != 0.0 else s[g, M + j]
+            s[g, FOUND_MI + j] = Mi
+            s[g, FOUND_D + j] = D_
+            s[g, FOUND_M + j] = M_
+            s[g, OUT + j] = MU0 * (z + found)
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def _response(clamped: bool, s: Array) -> None:
+def _response(clamped: bool, s: Array, left: Array) -> None:
     if clamped:
-        _tried(s, True)
+        _tried(s, left, True)
     else:
-        _tried(s, False)
+        _tried(s, left, False)
 
 
 @njit(cache=True, error_model="numpy")
 def _kept(clamped: bool, s: Array) -> None:
-    """What the last trial found is the state."""
-    for row in range(LAST, LAST + FOUND):
-        s[row] = s[FOUND + row]
+    """What the last trial found is the state, where it has moved."""
+    for g in range(s.shape[0]):
+        for j in range(min(LANES, s.shape[1])):
+            dH = s[g, TRIAL + j] - s[g, Z + j]
+            moved = dH != 0.0
+            Mi, D_, M_ = s[g, MI + j], s[g, D + j], s[g, M + j]
+            found_Mi, found_D, found_M = s[g, FOUND_MI + j], s[g, FOUND_D + j], s[g, FOUND_M + j]
+            last, rise_D, rise_M = s[g, LAST + j], s[g, RISE_D + j], s[g, RISE_M + j]
+            s[g, LAST + j] = dH if moved else last
+            s[g, MI + j] = found_Mi if moved else Mi
+            s[g, D + j] = found_D if moved else D_
+            s[g, M + j] = found_M if moved else M_
+            s[g, RISE_D + j] = found_D - D_ if moved else rise_D
+            s[g, RISE_M + j] = found_M - M_ if moved else rise_M
 
 
 @njit(cache=True, error_model="numpy")

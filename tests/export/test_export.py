@@ -13,9 +13,12 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.cli import main
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.export.functions import gathered
+from hysteresis_bench.export.to_c import c_of
 from hysteresis_bench.export.write import exported
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
 from hysteresis_bench.fit.preparation import Preparation
@@ -322,8 +325,7 @@ def test_what_cannot_be_exported_says_so():
 
 
 def test_c_is_fast_enough(tmp_path, compiler):
-    """At most thrice the compiled kernels' time, in the same run, the best of several. It was 1.3 times before the
-    kernels became faster; 2.4 was measured since."""
+    """At most twice the compiled kernels' time, in the same run, the best of several: 0.8 to 0.9 was measured."""
     model = fitted("bouc-wen", ("input-lag", "creep", "resonance"))
     library = compiled(model, tmp_path, compiler)
     t = np.linspace(0.0, 50.0, 100_000)
@@ -338,7 +340,30 @@ def test_c_is_fast_enough(tmp_path, compiler):
             before = time.thread_time()
             run()
             taken[name].append(time.thread_time() - before)
-    assert min(taken["C"]) <= 3.0 * min(taken["kernels"])
+    assert min(taken["C"]) <= 2.0 * min(taken["kernels"])
+
+
+def with_names_of_c(several, register: Array, long):
+    """A kernel may call its variables as it likes."""
+    short, found = several + 1.0, 2.0 * several
+    for int in range(3):
+        short += register[int]
+    if long > 0.0:
+        found = short
+    return found, short
+
+
+def test_words_of_c_are_no_names_of_variables(tmp_path, compiler):
+    (function,) = gathered([with_names_of_c])
+    kinds = {function.name: [kind for _, kind in function.arguments]}
+    array = "double array[] = {1.0, 2.0, 4.0};"
+    call = f"void call(double x, double *y) {{ {array} {function.name}(x, array, x, y); }}"
+    source, library = tmp_path / "names.c", tmp_path / "names.so"
+    source.write_text(f"{c_of(function, kinds)}\n{call}\n", encoding="utf-8")
+    subprocess.run([compiler, "-std=c99", "-Wall", "-Werror", "-shared", "-fPIC", source, "-o", library], check=True)
+    out = np.empty(2)
+    ctypes.CDLL(str(library)).call(ctypes.c_double(3.0), out.ctypes.data_as(ctypes.c_void_p))
+    assert tuple(out) == with_names_of_c(3.0, [1.0, 2.0, 4.0], 3.0)
 
 
 def test_a_unit_cannot_end_the_comment(tmp_path, compiler):

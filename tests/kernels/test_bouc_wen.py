@@ -9,7 +9,7 @@ from scipy.integrate import solve_ivp
 
 from hysteresis_bench.kernels.bouc_wen import bouc_wen
 from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
-from hysteresis_bench.kernels.bouc_wen_step import moved
+from hysteresis_bench.kernels.bouc_wen_step import grown, integrated, moved
 
 PUBLISHED = (0.304225, 0.675313, 0.497724, 1.045814)  # PEA paper, Table 2, G-Pmix
 
@@ -113,6 +113,19 @@ def test_other_powers_of_a_swarm_agree_with_the_step_for_one_particle(n):
                 expected.append(h)
             found = d[j] * inputs - simulated[:, j]
             np.testing.assert_allclose(found, expected, rtol=0, atol=2e-9 * np.ptp(expected))
+
+
+@pytest.mark.parametrize("n", [1.3, 2.0, 3.0, 4.0])
+def test_the_crossing_of_0_in_few_terms_is_that_of_the_whole_series(n):
+    rng = np.random.default_rng(10)
+    for _ in range(300):
+        drive, width = 10.0 ** rng.uniform(-3.0, 3.0, 2)
+        along, against = rng.uniform(-1.0, 1.0, 2) * 10.0 ** rng.uniform(-8.0, 0.0) * drive / (drive * width) ** n
+        g = -drive * width * rng.uniform(0.0, 1.0)
+        expected = integrated(g, drive, along, against, n, width, np.inf)
+        found = grown(g, drive, along, against, n, width, np.inf)
+        assert abs(found - expected) <= 1e-11 * drive * width
+    assert grown(0.0, 0.0, 1.0, 1.0, n, 1.0, np.inf) == 0.0
 
 
 @pytest.mark.parametrize("samples", [20, 300, 3000])

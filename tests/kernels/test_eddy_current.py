@@ -1,5 +1,6 @@
 """The eddy-current kernels against a tight ODE, the law itself, an exact lag, and the kernels without."""
 
+import itertools
 import math
 from types import SimpleNamespace
 
@@ -120,6 +121,42 @@ def test_a_plain_solution_of_the_same_equation_agrees(name, samples):
     for j, coefficient in enumerate(coefficients):
         expected = twin(law, time, u, coefficient)
         np.testing.assert_allclose(found[:, j], expected, atol=1e-8 * np.ptp(expected))
+
+
+def test_so_it_does_for_bouc_wen_on_steps_of_any_size():
+    """Most steps cross h = 0, some change h by its whole range or by none."""
+    rng = np.random.default_rng(5)
+    time = np.cumsum(10.0 ** rng.uniform(-3.0, 1.0, 120))
+    u = np.cumsum(rng.normal(size=120) * 10.0 ** rng.uniform(-3.0, 1.0, 120))
+    u[40:43] = u[40]
+    drawn = {
+        "alpha": rng.uniform(-50.0, 1.0, 30) * (np.arange(30) > 0),
+        "beta": 10.0 ** rng.uniform(-2.0, 2.0, 30),
+        "d": rng.uniform(0.0, 2.0, 30) * (np.arange(30) > 1),
+    }
+    drawn["gamma"] = drawn["beta"] * rng.uniform(-0.99, 0.99, 30)
+    drawn["gamma"][2] = drawn["beta"][2] = 1.0  # rates 2 and 0
+    coefficients = 10.0 ** rng.uniform(-4.0, 2.0, 30)
+    found = BoucWen()._dragged(time, u[:, None], coefficients, SimpleNamespace(**drawn))
+    for j in range(30):
+        law = bouc_wen_law(1.0, **{name: values[j] for name, values in drawn.items()})
+        expected = twin(law, time, u, coefficients[j])
+        np.testing.assert_allclose(found[:, j], expected, atol=1e-9 * np.ptp(expected))
+
+
+@pytest.mark.parametrize("n", [1.0, 1.5])
+def test_it_stays_finite_wherever_the_parameters_are(n):
+    """Corners with h unbounded, no drive, no rates; two samples, equal ones and long steps."""
+    values = (-200.0, 0.0, 2.0), (0.0, 0.01, 100.0), (-15.0, 0.0, 15.0), (-1.0, 0.0, 1.0)
+    grid = np.array(list(itertools.product(*values)))
+    p = SimpleNamespace(**dict(zip(("alpha", "beta", "gamma", "d"), grid.T.copy(), strict=True)))
+    rng = np.random.default_rng(6)
+    inputs = (np.array([1.0, 1.0]), np.array([0.0, 1e3]), np.cumsum(rng.normal(size=50)), 1e-9 * rng.normal(size=50))
+    for u in inputs:
+        for coefficient in (0.0, 1e-9, 0.1, 1e9):
+            coefficients = np.full(len(grid), coefficient)
+            found = BoucWen(n)._dragged(np.arange(float(u.size)), u[:, None], coefficients, p)
+            assert np.all(np.isfinite(found))
 
 
 @pytest.mark.parametrize("n", [1.0, 1.5])

@@ -8,6 +8,7 @@ from hysteresis_bench.kernels.elementary import (
     base_2_logarithm_to_2,
     cosine_and_sine,
     exponential,
+    exponential_less_1,
     logarithm,
     power_of_2,
 )
@@ -44,6 +45,16 @@ def test_the_ends_are_kept():
     assert 1e307 < exponentials[2] < np.inf
     assert logarithms[0] < -708
     assert logarithms[3] == 0.0
+
+
+def test_the_exponential_less_1_keeps_its_digits_near_0():
+    less_1 = njit(lambda x: exponential_less_1(x))
+    rng = np.random.default_rng(1)
+    x = np.concatenate([rng.uniform(-700, 700, 5000), rng.uniform(-2, 2, 20_000), 10.0 ** rng.uniform(-200, 0, 5000)])
+    np.testing.assert_allclose([less_1(value) for value in x], np.expm1(x), rtol=2e-15, atol=0)
+    assert less_1(0.0) == 0.0
+    assert less_1(-1e5) == -1.0
+    assert 1e307 < less_1(1e5) < np.inf
 
 
 def test_those_of_base_2():
