@@ -218,6 +218,12 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             "correlated, but depends on nothing that was measured here, and no term describes it: slow noise, or a "
             "cause beside the input that these data do not show."
         )
+    if steps := outcome.evidence.steps:
+        said.append(
+            f"The samples are few for this law, which is integrated from one to the next: that is off by {steps:.2g} "
+            f"(RMS), {rounded(steps / outcome.evidence.noise.floor)} times the noise, and raises the floor. A record "
+            "with more samples a cycle, or a law in closed form, would judge more finely."
+        )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")
     at_edges: dict[str, dict[str, float]] = {}
