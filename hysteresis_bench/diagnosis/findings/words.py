@@ -15,6 +15,7 @@ from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.search.between_samples import TELLING, between_samples
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import MISFIT
@@ -218,11 +219,12 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             "correlated, but depends on nothing that was measured here, and no term describes it: slow noise, or a "
             "cause beside the input that these data do not show."
         )
-    if steps := outcome.evidence.steps:
+    steps = between_samples(after.problem.system, records, after.values)
+    if steps > TELLING * floor:
         said.append(
             f"The samples are few for this law, which is integrated from one to the next: that is off by {steps:.2g} "
-            f"(RMS), {rounded(steps / outcome.evidence.noise.floor)} times the noise, and raises the floor. A record "
-            "with more samples a cycle, or a law in closed form, would judge more finely."
+            f"(RMS), {rounded(steps / floor)} times the noise, and what is named may make up for it. Records with more "
+            "samples a cycle, or a law in closed form, would tell."
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")

@@ -15,7 +15,6 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.between_samples import between_samples
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
@@ -70,10 +69,8 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     options = question.options
     jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
     with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
-        (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
-        system, values = thin.fitted(base)
-        evidence = evidence.stepped(between_samples(system, thin.stack.records, values))
         selection = Selection(thin, workers, evidence.floor, possible)
+        (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
         best = selection.run(base)
         quieter = evidence.heard_anew(undisturbed(full, best))
         if quieter.noise.floor < QUIETER * evidence.noise.floor:

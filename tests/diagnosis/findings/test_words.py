@@ -8,8 +8,9 @@ from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warning
 
 
 def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False):
-    stage = Of(held_out=None if held_out is None else Of(rmse=held_out), fitted=Of(rmse=rmse))
-    evidence = Of(noise=Of(floor=0.1), floor=0.1, steps=0.0)
+    held = None if held_out is None else Of(rmse=held_out)
+    stage = Of(held_out=held, fitted=Of(rmse=rmse), problem=Of(system=None), values=None)
+    evidence = Of(noise=Of(floor=0.1), floor=0.1)
     final = Of(names=frozenset(), at_bound=(), values={})
     full = Of(stack=Of(records=(), model=Of(advice=lambda _: ())))
     return Outcome(
