@@ -42,12 +42,12 @@ def hypothesis(rmse=0.1):
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """A record that lags behind a curve, in the folder that we are in."""
+    """A curve of a delayed input, in the folder that we are in. It needs no other law, which would take long."""
     monkeypatch.chdir(tmp_path)
     t = np.arange(120) / 30.0
-    u = np.sin(2 * np.pi * t) * (0.5 + t / 8.0)
-    late, noise = np.sin(2 * np.pi * t - 0.4) * (0.5 + t / 8.0), np.random.default_rng(1).standard_normal(120)
-    rows = zip(t, u, late + 0.2 * late**3 + 0.002 * noise, strict=True)
+    u, late = (np.sin(2 * np.pi * past) * (0.5 + past / 8.0) for past in (t, t - 0.06))
+    noise = np.random.default_rng(1).standard_normal(120)
+    rows = zip(t, u, late + 0.2 * late**3 + 0.005 * noise, strict=True)
     lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
     (tmp_path / "loop.csv").write_text("time,input,output\n" + "\n".join(lines) + "\n", encoding="utf-8")
     return tmp_path

@@ -11,6 +11,8 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset, Record
 from tests.diagnosis.generator import make
 
+pytestmark = pytest.mark.usefixtures("few_laws")
+
 BARE = Question("bouc-wen", options=DiagnosisOptions(jobs=1))
 
 

@@ -9,6 +9,8 @@ from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.signals import Dataset, Record
 
+pytestmark = pytest.mark.usefixtures("few_laws")
+
 RECORDS = ("slow", "fast", "nested", "mixed")
 VALUES = np.array([[0.6], [0.35], [0.15], [1.3]])
 """alpha, beta, gamma, d of a Bouc-Wen law for inputs of a few units."""
@@ -27,12 +29,6 @@ def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects):
     assert found.verdict == ("effect-found" if effects else "no-effect-needed")
     assert any("depends on nothing that was measured here" in one for one in found.warnings)
     assert not any("law does not follow" in one for one in found.warnings)
-
-
-def test_a_wrong_law_is_not_taken_for_slow_noise():
-    found, _ = found_in("", law="energy-based")
-    assert found.verdict == "unexplained-residual"
-    assert not any("depends on nothing that was measured" in one for one in found.warnings)
 
 
 def test_spikes_are_bridged_and_told_and_do_not_change_what_is_found():

@@ -37,6 +37,7 @@ def test_a_wrong_law_is_told_and_nothing_is_named_in_its_place(tmp_path):
     assert found.better_law.unseen < 1.1 * found.floor
     assert found.verdict == "unexplained-residual"
     assert "No effect is named, as the law itself is the cause" in found.headline
+    assert not any("depends on nothing that was measured" in one for one in found.warnings)  # no slow noise
     write_diagnosis(tmp_path, found)
     kept = read_diagnosis(tmp_path).diagnosis
     assert kept["effects"] == []

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from hysteresis_bench.commands.data.journal import Journal
 from hysteresis_bench.commands.diagnose import diagnose as command
 from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.diagnose import diagnose
@@ -17,6 +18,8 @@ from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.signals import Dataset, Record
 from tests.diagnosis.generator import make
+
+pytestmark = pytest.mark.usefixtures("few_laws")
 
 TIME = 3.0 + np.linspace(0.0, 2.0, 300)
 DRIVE = 1.0 + 2.0 * np.sin(2 * np.pi * 1.3 * TIME)
@@ -75,20 +78,25 @@ def odd():
     return Dataset(tuple(records), ("held-1",))
 
 
-def asked(accept_terms: bool) -> Question:
+@pytest.fixture(scope="module")
+def fits(tmp_path_factory):
+    """The same with and without terms: made once."""
+    return Journal(tmp_path_factory.mktemp("kept") / "fits", "of one loop")
+
+
+def asked(accept_terms: bool, fits: Journal) -> Question:
     """The step turns the loop's sense, and a clockwise Bouc-Wen can bend to it: its hysteresis stays anticlockwise."""
-    return Question(
-        "bouc-wen", bounds={"alpha": (0.0, 2.0)}, options=DiagnosisOptions(jobs=1, accept_terms=accept_terms)
-    )
+    options = DiagnosisOptions(jobs=1, accept_terms=accept_terms, kept=fits)
+    return Question("bouc-wen", bounds={"alpha": (0.0, 2.0)}, options=options)
 
 
 @pytest.fixture(scope="module")
-def described(odd):
-    return diagnose(odd, asked(accept_terms=True))
+def described(odd, fits):
+    return diagnose(odd, asked(accept_terms=True, fits=fits))
 
 
-def test_accepted_terms_bring_the_error_down(odd, described):
-    plain = diagnose(odd, asked(accept_terms=False))
+def test_accepted_terms_bring_the_error_down(odd, described, fits):
+    plain = diagnose(odd, asked(accept_terms=False, fits=fits))
     assert "description" not in plain.effects
     assert any(part.term.kind == "branch" for part in plain.equation.terms)
     assert described.effects == (*plain.effects, "description")

@@ -1,0 +1,16 @@
+"""What tests of diagnosis share."""
+
+import pytest
+
+from hysteresis_bench.diagnosis import diagnose
+
+FEW = ("bouc-wen", "dahl", "energy-based", "ferroelectric", "prandtl-ishlinskii-modified")
+
+
+@pytest.fixture(scope="module")
+def few_laws():
+    """Where the asked law does not follow, all others are asked what they need, which takes half a minute. These will
+    do where a test is not about them."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(diagnose, "_of_few_parameters", lambda laws: [law for law in laws if law in FEW])
+        yield
