@@ -24,6 +24,9 @@ from hysteresis_bench.report.shared.text import listed
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
 FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
 
+MOST = 30
+"""Parameters of which the terminal shows all: of a density of many weights it leaves out those that are 0."""
+
 
 def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
     """Write model.json, parameters.csv, responses.csv, figures and the page; returns the page."""
@@ -58,12 +61,16 @@ def print_fit(fit: Fit, console: Console) -> None:
     parameters = Table(title=f"{fit.model.model}: parameters", title_justify="left", box=None, title_style="bold")
     for heading, side in (("parameter", "left"), ("value", "right"), ("± standard error", "right"), ("unit", "left")):
         parameters.add_column(heading, justify=side)  # type: ignore[arg-type]
-    for row in fit.parameters.itertuples(index=False):
+    zero = (fit.parameters["value"] == 0.0) & fit.parameters["standard_error"].isna()
+    spared = zero if len(zero) > MOST else zero & False
+    for row in fit.parameters[~spared].itertuples(index=False):
         known = row.standard_error is not None and pd.notna(row.standard_error)
         error = rounded(row.standard_error) if known else "not determined"
         mark = "  at bound" if row.at_bound else ""
         parameters.add_row(row.name, f"{row.value:.6g}", error, row.unit + mark, style="yellow" if mark else "")
     console.print(parameters)
+    if spared.any():
+        console.print(f"{spared.sum()} more are 0 and not determined; all stand in {PARAMETERS}.", highlight=False)
     unit = fit.model.units["output"]
     rmse = "RMSE" if unit == "1" else f"RMSE [{unit}]"
     errors = Table(title="errors", title_justify="left", box=None, title_style="bold")

@@ -83,6 +83,14 @@ def test_a_fit_far_above_the_noise_says_that_the_law_cannot_follow():
     assert "cannot follow" not in " ".join(fit(dataset(own), "prandtl-ishlinskii").warnings)
 
 
+def test_an_output_of_nothing_but_noise_does_not_follow_the_input():
+    view = seen(plays(), sine)[0]
+    noise = np.random.default_rng(4).standard_normal(view.record.time.size)
+    told = fit(Dataset((replace(view.record, output=noise),)), "prandtl-ishlinskii").warnings
+    assert any("The output does not follow the input" in one for one in told)
+    assert not any("does not follow the input" in one for one in fit(dataset([view]), "prandtl-ishlinskii").warnings)
+
+
 def test_loops_of_both_senses_are_told():
     one = seen(plays(), sine)[0].record
     other = replace(seen(clockwise, sine)[0].record, name="other")
