@@ -3,6 +3,7 @@ left out, and explains most of what the formulas leave over the noise, the free 
 needed any more leaves.
 
 So a free form takes the place of a formula of its family, of one of another family that stood in for it, or of none.
+What the wrong formula left may have hidden an effect that has a name: once a curve has joined, names are asked again.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
         better = _freed(selection, current, [form for form in forms if form not in current.names])
         if better is None:
             break
-        current = better
+        current = _with_names(selection, better, names)
     if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
         current = named
     selection.candidates = (*names, *(form for form in forms if form in current.names))
@@ -41,6 +42,17 @@ def _freed(selection: Selection, current: Hypothesis, forms: list[str]) -> Hypot
     # beside all that is named a free form is one claim more: a little misfit is too little for it
     more = len(selection.adopted(better)) > len(selection.adopted(current))
     return None if more and current.rmse <= MISFIT * selection.floor else better
+
+
+def _with_names(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
+    """With every name that is needed beside the curve and explains more than what then remains, the best one first."""
+    while len(selection.adopted(current)) < MOST and current.rmse > MATTERS * selection.floor:
+        tried = selection.with_each(current, [name for name in names if name not in current.names])
+        found = [system for system in tried if _clearly(selection, current, system)]
+        if not found:
+            break
+        current = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
+    return current
 
 
 def _in_place(selection: Selection, current: Hypothesis, forms: list[str]) -> list[Hypothesis]:
