@@ -72,14 +72,14 @@ class System:
 
     def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
-        simulated = self.simulate(record.signal, values)
+        simulated = record.at_samples(self.simulate(record.signal, values))
         for _, effect in self.effects:
             simulated = effect.adjust(simulated, record)
         return simulated
 
     def offsets(self, record: Record, values: Array) -> list[Array]:
         """The constant that each effect adds to a record's output, (swarm,) an effect, in their order."""
-        simulated = self.simulate(record.signal, values)
+        simulated = record.at_samples(self.simulate(record.signal, values))
         found = []
         for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
             found.append(effect.offset(simulated, record, p))

@@ -1,8 +1,12 @@
 """Records: parts, history, and loops repeated until they settle."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from hysteresis_bench import registry
+from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Record
 
@@ -38,3 +42,42 @@ def test_an_input_shared_by_the_swarm_is_one_column():
 def test_a_time_that_does_not_increase_is_refused(time):
     with pytest.raises(UserError, match="record up: its times must be finite and strictly increase"):
         Record(np.array(time), np.zeros(3), None, "up")
+
+
+def test_a_smooth_input_is_simulated_along_a_curve_and_answers_at_its_samples():
+    time = np.sort(np.random.default_rng(2).uniform(0.0, 6.0, 120))
+    record = Record(time, np.sin(time), None, columns={"temperature": 2.0 * time}, steps=4)
+    signal = record.signal
+    assert signal.time.size == 4 * 119 + 1
+    assert np.allclose(record.at_samples(signal.time), time, rtol=0, atol=1e-12)
+    straight = np.interp(signal.time, time, record.input)
+    missed = [np.max(np.abs(way - np.sin(signal.time))) for way in (signal.input[:, 0], straight)]
+    assert missed[0] < 0.02 * missed[1]
+    assert np.allclose(signal.columns["temperature"], 2.0 * signal.time)
+
+
+def corners(time):
+    return np.abs(np.mod(time, 2.0) - 1.0)
+
+
+def noise(time):
+    return np.random.default_rng(3).standard_normal(time.size)
+
+
+@pytest.mark.parametrize("drive", [corners, noise, np.sign])
+def test_corners_and_noise_lie_on_straight_lines(drive):
+    time = np.linspace(-3.0, 3.0, 121)
+    signal = Record(time, drive(time), None, steps=2).signal
+    assert np.allclose(signal.input[1::2, 0], 0.5 * (drive(time)[1:] + drive(time)[:-1]))
+
+
+def test_a_law_of_finer_steps_is_the_finely_sampled_one():
+    """The same Bouc-Wen loop from 30 samples a cycle, simulated finely, and from 240."""
+    time = np.linspace(0.0, 3.0, 721)
+    system = System(registry.build("models", "bouc-wen"))
+    values = np.array([[0.6], [0.35], [0.15], [1.3]])
+    fine = Record(time, 2.0 * np.sin(2.0 * np.pi * time), None)
+    coarse = fine.take(slice(None, None, 8))
+    expected = system.respond(fine, values)[::8]
+    off = [np.max(np.abs(system.respond(one, values) - expected)) for one in (coarse, replace(coarse, steps=8))]
+    assert off[1] < 0.05 * off[0]

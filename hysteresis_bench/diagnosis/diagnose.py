@@ -19,9 +19,10 @@ from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, com
 from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
+from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
 from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.search.search import search
-from hysteresis_bench.diagnosis.search.selection import MISFIT, NAMED
+from hysteresis_bench.diagnosis.search.selection import ALIKE, MISFIT, NAMED
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.smooth.smoothing import Rough
@@ -35,6 +36,12 @@ PURSUED = 2
 SMOOTHED = (
     "The input is measured with noise. It was smoothed by as much as its noise is (a smoothing spline), which leaves "
     "less, so that no effect makes up for the noise; `predict` will leave more with inputs as measured."
+)
+
+BETWEEN = (
+    f"The samples are few for this law: it was simulated with {FINER} steps from one to the next, along a smooth curve "
+    "through the input where it has no corners, so that no effect makes up for what lies between; `predict` takes the "
+    "samples as they are."
 )
 
 
@@ -75,6 +82,12 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
         again = found if quiet.noise.input_heard else search(smooth, quiet, question)
         if again.best.rmse < found.best.rmse:
             prepared, found = smooth, again
+    on_step(Step(f"{law}: what lies between the samples"))
+    if few_samples(found):
+        finer = prepared.without(with_finer_steps, BETWEEN)
+        again = search(finer, gather(finer.views), question)
+        if again.best.rmse < ALIKE * found.best.rmse:
+            prepared, found = finer, again
     on_step(Step(f"{law}: the records' beginnings"))
     if (spare := only_in_beginnings(found)) is not None:
         later = prepared.without(without_beginnings, _in_mid_loop(spare))

@@ -107,12 +107,27 @@ def test_an_input_that_is_rough_by_itself_is_not_smoothed():
     assert not any("The input is measured with noise" in one for one in found.warnings)
 
 
-def test_few_samples_of_a_steep_loop_are_told():
-    """A resonance is named there that bends the loop as the steps from sample to sample do."""
-    settings = {"model": "jiles-atherton", "hide": 0, "draw": 3593, "imperfect": "coarse"}
+@pytest.mark.parametrize(
+    ("law", "imperfect", "hide", "draw", "names"),
+    [
+        ("jiles-atherton", "coarse", 0, 3593, ()),  # a resonance was named that bends the loop as the steps do
+        ("bouc-wen", "coarse", 1, 74375, ("eddy-current",)),  # with a delay that is not there
+        ("bouc-wen", "uneven", 1, 3584, ("backlash",)),  # missed
+    ],
+)
+def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, hide, draw, names):
+    settings = {"model": law, "hide": hide, "draw": draw, "imperfect": imperfect}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=201).split(records[-1:])
-    found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
-    assert any("The samples are few for this law" in one for one in found.warnings)
-    closed, _ = found_in("coarse")
-    assert not any("The samples are few" in one for one in closed.warnings)
+    found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
+    assert found.effects == names
+    assert any("The samples are few for this law: it was simulated with 4 steps" in one for one in found.warnings)
+    assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
+    sound = measure("hidden-effects", "stairs", settings={**settings, "imperfect": ""}, seed=201)
+    (predicted,), (record,) = found.model.predict(sound).records, sound.records
+    assert np.sqrt(np.mean((predicted.output - record.output) ** 2)) < 1.15 * data.hidden["noise"]
+
+
+def test_many_samples_are_taken_as_they_are():
+    found, _ = found_in("")
+    assert not any("The samples are few" in one for one in found.warnings)

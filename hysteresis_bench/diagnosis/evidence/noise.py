@@ -154,6 +154,7 @@ def unresolved(records: Sequence[Record]) -> float:
     for record in records:
         u = record.input
         sag = float(np.median(np.abs(u[2:] - 2.0 * u[1:-1] + u[:-2]))) / 8.0 if u.size > 2 else 0.0
+        sag /= record.steps**2
         sags.append(sag * float(np.ptp(record.measured)) / (float(np.ptp(u)) or 1.0))
     return MISSED * float(np.sqrt(np.mean(np.square(sags))))
 

@@ -222,9 +222,9 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     steps = between_samples(after.problem.system, records, after.values)
     if steps > TELLING * floor:
         said.append(
-            f"The samples are few for this law, which is integrated from one to the next: that is off by {steps:.2g} "
-            f"(RMS), {rounded(steps / floor)} times the noise, and what is named may make up for it. Records with more "
-            "samples a cycle, or a law in closed form, would tell."
+            f"The samples are few for this law: finer steps between them change its response by {steps:.2g} (RMS), "
+            f"{rounded(steps / floor)} times the noise, and what is named may make up for that. Records with more "
+            "samples a cycle would tell."
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")

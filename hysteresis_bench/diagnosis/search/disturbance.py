@@ -28,7 +28,7 @@ def undisturbed(fitter: Fitter, hypothesis: Hypothesis) -> tuple[Record, ...]:
     both = np.column_stack([loud, still])
     quiet = []
     for record in stack.records:
-        heard, unheard = system.simulate(record.signal, both).T
+        heard, unheard = record.at_samples(system.simulate(record.signal, both)).T
         assert record.output is not None
         quiet.append(replace(record, output=record.output - (heard - unheard)))
     return tuple(quiet)

@@ -41,7 +41,7 @@ def broken_promises(system: System, records: Sequence[Record]) -> list[str]:
 def _fault(system: System, record: Record, values: Array) -> str:
     given = values.copy()
     simulated = system.simulate(record.signal, given)
-    expected = (record.time.size, values.shape[1])
+    expected = (record.signal.time.size, values.shape[1])
     if not isinstance(simulated, np.ndarray) or simulated.shape != expected:
         return f"{_named(system)} must answer an array (samples, swarm) = {expected}, not {np.shape(simulated)}."
     if not np.array_equal(given, values):
