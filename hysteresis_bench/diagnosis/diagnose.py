@@ -40,8 +40,8 @@ SMOOTHED = (
 
 BETWEEN = (
     f"The samples are few for this law: it was simulated with {FINER} steps from one to the next, along a smooth curve "
-    "through the input where it has no corners, so that no effect makes up for what lies between; `predict` takes the "
-    "samples as they are."
+    "through the input where it has no corners, so that no effect makes up for what lies between. `predict` does the "
+    "same; what `control` and `export` simulate has the steps of its own time."
 )
 
 

@@ -42,6 +42,11 @@ class Prepared:
     passes: int
     notes: tuple[str, ...] = ()
 
+    @property
+    def steps(self) -> int:
+        """Simulated from one sample to the next; all records have the same."""
+        return self.dataset.records[0].steps
+
     def without(self, records: Callable[[Sequence[Record]], tuple[Record, ...]], note: str) -> Prepared:
         """With records that are scored or read otherwise.  records : from all of them to what they become"""
         dataset = replace(self.dataset, records=records(self.dataset.records))

@@ -45,6 +45,11 @@ def notes(chain: Chain) -> list[str]:
             f"In the fit closed loops were passed {fitted.preparation.settle} times before they were scored: pass "
             f"yours as often."
         )
+    if fitted.preparation.steps > 1:
+        said.append(
+            f"In the fit {fitted.preparation.steps} steps were simulated from one sample to the next, along a smooth "
+            "input: call step as often, or it is less exact than predict."
+        )
     if chain.ignored is None:
         said.append("The law has no exact inverse that is known, or none with these parameters: none is exported.")
     else:

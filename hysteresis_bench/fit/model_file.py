@@ -273,6 +273,7 @@ def _fitted(content: Mapping[str, Any]) -> FittedModel:
             value_of(prepared, "flip", bool),
             number_of(prepared, "skip"),
             value_of(prepared, "settle", int),
+            value_of({"steps": 1, **prepared}, "steps", int),
         ),
         value_of(content, "data", dict),
         value_of(content, "error", dict),

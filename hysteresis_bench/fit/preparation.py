@@ -15,6 +15,9 @@ from hysteresis_bench.signals import INDEX, Record
 
 Values = TypeVar("Values", float, Array)
 
+MOST_STEPS = 64
+"""From one sample to the next; a file that asks for more is damaged."""
+
 SHOWN = 8
 """Names that a sentence lists."""
 
@@ -26,21 +29,24 @@ class Preparation:
     input_offset : subtracted from the input;  flip : changes its sign then
     skip : seconds at the start (samples, where time is an index) that are simulated and not scored
     settle : how often a closed loop is passed before it is scored; 0 where it is not
+    steps : that are simulated from one sample to the next
     """
 
     input_offset: float = 0.0
     flip: bool = False
     skip: float = 0.0
     settle: int = 0
+    steps: int = 1
 
     def __post_init__(self) -> None:
         """Raises ValueError for what cannot be done to a record."""
-        if not (np.isfinite(self.input_offset) and 0.0 <= self.skip < np.inf and 0 <= self.settle <= MOST_REPEATS):
+        repeated = 0 <= self.settle <= MOST_REPEATS and 1 <= self.steps <= MOST_STEPS
+        if not (np.isfinite(self.input_offset) and 0.0 <= self.skip < np.inf and repeated):
             raise ValueError(f"no record can be prepared by {self}.")
 
     def __call__(self, record: Record) -> Record:
         """The record as the model sees it; one that is no closed loop is passed once."""
-        ready = replace(self.skipped(record), input=self.seen_input(record.input))
+        ready = replace(self.skipped(record), input=self.seen_input(record.input), steps=self.steps)
         return ready.settled(self.settle) if self.settle and is_closed(record) else ready
 
     def skipped(self, record: Record) -> Record:
@@ -82,6 +88,8 @@ class Preparation:
         closed = [record for record in records if is_closed(record)]
         if self.settle and closed:
             done.append(f"closed loops are passed {self.settle} times before the pass that counts")
+        if self.steps > 1:
+            done.append(f"{self.steps} steps are simulated from one sample to the next")
         found = [f"As for the fit, {', '.join(done)}."] if done else []
         still = [record.name for record in records if not is_closed(record)] if self.settle else []
         if still:

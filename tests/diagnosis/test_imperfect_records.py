@@ -123,6 +123,8 @@ def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, hide
     assert found.effects == names
     assert any("The samples are few for this law: it was simulated with 4 steps" in one for one in found.warnings)
     assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
+    assert found.model.preparation.steps == 4
+    assert found.model.errors(data)["mixed"].rmse == pytest.approx(found.after.held_out.rmse)
     sound = measure("hidden-effects", "stairs", settings={**settings, "imperfect": ""}, seed=201)
     (predicted,), (record,) = found.model.predict(sound).records, sound.records
     assert np.sqrt(np.mean((predicted.output - record.output) ** 2)) < 1.15 * data.hidden["noise"]

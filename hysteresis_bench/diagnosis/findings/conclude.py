@@ -157,7 +157,7 @@ def _model(stage: Stage, prepared: Prepared, question: Question) -> FittedModel:
         dataset=prepared.dataset,
         model=question.model,
         settings=question.settings,
-        preparation=replace(question.preparation, settle=prepared.passes),
+        preparation=replace(question.preparation, settle=prepared.passes, steps=prepared.steps),
     )
 
 
