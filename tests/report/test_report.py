@@ -82,14 +82,20 @@ def test_the_summary_is_what_one_counts_by_hand(tiny):
 
 
 def test_fitness_after_the_papers_iterations_is_read_from_the_traces(tiny):
-    row = at_iterations(tiny, 2).set_index("optimizer").loc["pso"]  # 50 particles, 3 swarms: 150 evaluations
+    row = (
+        at_iterations(tiny, problems(tiny, any_budget=True), 2).set_index("optimizer").loc["pso"]
+    )  # 50 particles, 3 swarms: 150 evaluations
     assert row["evaluations"] == 150
     assert row["fitness_median"] == 5.0
     assert row["fitness_best"] == 4.0
 
 
 def test_who_has_no_iterations_or_not_enough_budget_is_told(results):
-    notes = at_iterations(results, 300).query("problem == @LINEAR").set_index("optimizer")["note"]
+    notes = (
+        at_iterations(results, problems(results, any_budget=True), 300)
+        .query("problem == @LINEAR")
+        .set_index("optimizer")["note"]
+    )
     assert notes["random-search"] == "has no iterations"
     assert notes["scipy-differential-evolution"] == "beyond the budget"
     assert notes["pso"] == ""
