@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -131,11 +132,11 @@ def test_with_few_trials_nothing_is_claimed(tmp_path):
 
 
 def test_those_who_cannot_be_told_apart_are_named(results):
-    problem = problems(results)[0]
+    found = problems(results)[0]
+    best = found.rows[found.winner]["fitness"].to_numpy()
+    alike = {label: rows.assign(fitness=best, status="done") for label, rows in found.rows.items()}
+    problem = replace(found, rows=alike)  # everybody as good as the winner
     tied = [label for label in problem.labels if label != problem.winner]
-    for label in tied:  # everybody as good as the winner
-        problem.rows[label]["fitness"] = problem.rows[problem.winner]["fitness"].to_numpy()
-        problem.rows[label]["status"] = "done"
     [sentence] = winners([problem], summarise(results))
     assert "In this instance, we cannot tell it apart from" in sentence
     assert set(problem.tied_with_winner) == set(tied)
