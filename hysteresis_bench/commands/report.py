@@ -26,22 +26,9 @@ def report(
     results: Path, ioh: Path | None, trial: str | None, keep: Path | None, as_json: bool, open_page: bool
 ) -> None:
     """Write the report of a results folder again, or the index of a folder of such folders."""
-    from hysteresis_bench.diagnosis_study.results import STUDY
-    from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
-    from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
-    from hysteresis_bench.report.index.page import is_index, write_index
-    from hysteresis_bench.report.study import write_report
-
     if keep:
         results = _kept(results, keep)
-    if trial is not None:
-        from hysteresis_bench.report.trial.page import write_trial_page
-
-        page = write_trial_page(results, trial)
-    elif is_index(results):
-        page = write_index(results)
-    else:
-        page = write_diagnosis_study_page(results) if is_diagnosis_study(results / STUDY) else write_report(results)
+    page = _page(results, trial)
     if ioh:
         from hysteresis_bench.report.trials.ioh import write_ioh
         from hysteresis_bench.study.results import read_results
@@ -52,6 +39,27 @@ def report(
     elif ioh:
         say_path(plain_console(), "searches", ioh)
     say_page(plain_console(aside=as_json), page, open_page, "report")
+
+
+def _page(results: Path, trial: str | None) -> Path:
+    """Of one trial, of an index, of a study of diagnosis or of a study: what the others need is not loaded."""
+    if trial is not None:
+        from hysteresis_bench.report.trial.page import write_trial_page
+
+        return write_trial_page(results, trial)
+    from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
+    from hysteresis_bench.report.index.page import is_index, write_index
+    from hysteresis_bench.study.results import STUDY
+
+    if is_index(results):
+        return write_index(results)
+    if is_diagnosis_study(results / STUDY):
+        from hysteresis_bench.report.diagnosis_study.page import write_diagnosis_study_page
+
+        return write_diagnosis_study_page(results)
+    from hysteresis_bench.report.study import write_report
+
+    return write_report(results)
 
 
 def _kept(results: Path, folder: Path) -> Path:

@@ -5,13 +5,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.statistics.resampling import counts, percentiles
+
+AT_ONCE = 100_000
+"""Of counts that are summed together: as many as stay in a processor's cache."""
 
 
 def magnitude(a12: float) -> str:
@@ -21,18 +24,38 @@ def magnitude(a12: float) -> str:
                 if distance >= edge - 1e-12)  # fmt: skip
 
 
-def scores(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> Array:
-    """(ours, theirs): 1 where ours is the lower one, 1/2 where they are equal, or within `tie`; inf is a failure."""
-    x, y = np.asarray(ours, dtype=float)[:, None], np.asarray(theirs, dtype=float)[None, :]
-    apart = np.abs(np.subtract(x, y, out=np.zeros(np.broadcast_shapes(x.shape, y.shape)), where=x != y)) > tie
-    found: Array = np.where(apart, x < y, 0.5)
+def lost_and_even(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> tuple[Array, Array]:
+    """Of each of ours how many of theirs it loses to, and how many of them it is even with: equal, or within `tie`. An
+    infinite one is a failure. (ours,) each, without every pair: of theirs in order, it loses to the first ones, and is
+    even with the next."""
+    x, ranked = np.asarray(ours, dtype=float), np.sort(np.asarray(theirs, dtype=float))
+    lost = _first(x, ranked, lambda mine, other: ~_apart(mine, other, tie) | (mine < other))
+    return lost, _first(x, ranked, lambda mine, other: _apart(mine, other, tie) & (mine < other)) - lost
+
+
+def _apart(x: Array, y: Array, tie: float) -> Array:
+    found: Array = np.abs(np.subtract(x, y, out=np.zeros(x.shape), where=x != y)) > tie
     return found
+
+
+def _first(x: Array, ranked: Array, holds: Callable[[Array, Array], Array]) -> Array:
+    """(x,): the place of the first of the ranked values for which it holds, as for all behind it, by bisection; their
+    number where there is none. A sum of value and tie would be searched at once, and is rounded otherwise than the
+    difference."""
+    low, high = np.zeros(x.size, dtype=np.intp), np.full(x.size, ranked.size, dtype=np.intp)
+    while (open_ := low < high).any():
+        middle = (low + high) // 2
+        there = holds(x, ranked[np.minimum(middle, ranked.size - 1)])
+        high = np.where(open_ & there, middle, high)
+        low = np.where(open_ & ~there, middle + 1, low)
+    return low
 
 
 def a12(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
     """[1] P(ours < theirs) + P(equal) / 2 over all pairs; 0.5 where one is empty."""
-    found = scores(ours, theirs, tie)
-    return float(np.mean(found)) if found.size else 0.5
+    lost, even = lost_and_even(ours, theirs, tie)
+    pairs = lost.size * np.size(theirs)
+    return float((pairs - np.sum(lost) - 0.5 * np.sum(even)) / pairs) if pairs else 0.5
 
 
 def mean_a12(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.0) -> float:
@@ -56,11 +79,17 @@ def a12_interval(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.
 
 def _resampled(ours: Array, theirs: Array, tie: float) -> Array:
     """(resamples,) A12. In the order of their results, one of ours loses to their first ones, is even with the next and
-    beats the last ones: three sums of how often a resample has each, in place of one for every pair."""
+    beats the last ones: sums of how often a resample has each, in place of one for every pair."""
     order = np.argsort(theirs, kind="stable")
-    found = scores(ours, theirs[order], tie)
-    n, m = found.shape
-    below = np.cumsum(np.pad(np.take(counts(m, 1), order, axis=1), ((0, 0), (1, 0))), axis=1)
-    lost, even = (np.take(below, np.sum(found < score, axis=1), axis=1) for score in (0.5, 1.0))
-    resampled: Array = np.einsum("ri,ri->r", counts(n), m - 0.5 * (lost + even)) / (n * m)
-    return resampled
+    lost, even = lost_and_even(ours, theirs, tie)
+    n, m = ours.size, theirs.size
+    mine, others = counts(n), counts(m, 1)
+    resampled = np.empty(len(mine))
+    below = np.zeros((-(-len(mine) // max(1, len(mine) * m // AT_ONCE)), m + 1))
+    for begun in range(0, len(mine), len(below)):
+        part = slice(begun, begun + len(below))
+        summed = below[: len(mine[part])]
+        np.cumsum(np.take(others[part], order, axis=1), axis=1, out=summed[:, 1:])
+        missed = np.take(summed, lost, axis=1) + np.take(summed, lost + even, axis=1)
+        resampled[part] = n * m - 0.5 * np.einsum("ri,ri->r", mine[part], missed)
+    return resampled / (n * m)

@@ -23,6 +23,10 @@ PRIOR = 0.5
 """[1] Strength of the prior, one pseudo-observation of no difference."""
 DRAWS = 20_000
 
+MOST = 0.6
+"""Share of all values in one region from which their weights alone are looked at first."""
+ROUNDING = 1e-9
+
 AT_ONCE = 100_000
 """Weights that are summed together: as many as stay in a processor's cache."""
 
@@ -44,19 +48,73 @@ def practical(ours: ArrayLike, theirs: ArrayLike, region: float = REGION) -> Pra
     """
     z = np.concatenate([[0.0], differences(ours, theirs)])
     order = np.argsort(z, kind="stable")
-    # of the sums with z_i those below the region are with the first of the others in order, those above with the last
-    ranked = z[order]
-    first = np.searchsorted(ranked, -2 * region - ranked, side="left")
-    last = np.searchsorted(ranked, 2 * region - ranked, side="right")
-    shares = np.empty((3, DRAWS))
-    for part in np.array_split(np.arange(DRAWS), max(1, DRAWS * z.size // AT_ONCE)):
-        weights = np.take(_weights(z.size)[part], order, axis=1)
-        below = np.cumsum(np.pad(weights, ((0, 0), (1, 0))), axis=1)
-        shares[0, part] = np.einsum("di,di->d", weights, np.take(below, first, axis=1))
-        shares[2, part] = np.einsum("di,di->d", weights, below[:, -1:] - np.take(below, last, axis=1))
-    shares[1] = 1.0 - shares[0] - shares[2]
-    favoured = np.bincount(np.argmax(shares, axis=0), minlength=3) / DRAWS
-    return Practical(*map(float, favoured))
+    sums = _Sums(z[order], region)
+    weights = _weights(z.size)
+    favoured = sums.certain(weights, order)
+    for part in np.array_split(open_ := np.flatnonzero(favoured < 0), max(1, open_.size * z.size // AT_ONCE)):
+        # clipped as no index is outside: where numpy looks for one, it takes three times as long
+        ranked = np.take(weights[part], order, axis=1, mode="clip", out=np.empty((part.size, z.size)))
+        favoured[part] = np.argmax(sums.shares(ranked), axis=0)
+    return Practical(*map(float, np.bincount(favoured, minlength=3) / DRAWS))
+
+
+class _Sums:
+    """Sums z_i + z_j of ranked values, (n,), in three regions: below -2 region, between, above 2 region.
+
+    Two values that lie in the same region have their sum there, too.
+    """
+
+    def __init__(self, ranked: Array, region: float) -> None:
+        # of values that lie below, how many have a sum there with each: these and others; the same from above
+        self._below, self._above = (_partners(side, -2.0 * region) for side in (ranked, -ranked[::-1]))
+        self._ends = np.array([0, self._below.size, ranked.size - self._above.size, ranked.size])
+
+    def certain(self, weights: Array, order: Array) -> Array:
+        """(draws,): the region of the largest weight where the values in it alone tell so: they have more than half of
+        all pairs. -1 where they do not. weights : (draws, n) of the values in the order before they were ranked"""
+        found = np.full(len(weights), -1)
+        region = int(np.argmax(sizes := np.diff(self._ends)))
+        if sizes[region] > MOST * order.size:
+            outside = np.zeros(len(weights))
+            others = np.delete(order, slice(*self._ends[region : region + 2]))
+            for part in np.array_split(np.arange(len(weights)), max(1, len(weights) * others.size // AT_ONCE)):
+                outside[part] = np.sum(weights[part[0] : part[-1] + 1, others], axis=1)
+            found[(1.0 - outside) ** 2 > 0.5 + ROUNDING] = region
+        return found
+
+    def shares(self, weights: Array) -> Array:
+        """(3, draws): the weights of the sums in each region; weights : (draws, n) of the ranked values
+
+        Two that lie below always are a pair below, two others never, and one of either is one twice.
+        """
+        _, low, high, n = self._ends
+        summed = np.zeros((len(weights), n + 1))
+        np.cumsum(weights, axis=1, out=summed[:, 1:])
+        taken, shares = np.empty(weights.size), np.zeros((3, len(weights)))
+        if low:
+            mixed = _products(weights[:, :low], summed, self._below, taken)
+            shares[0] = 2.0 * mixed - summed[:, low] ** 2
+        if high < n:
+            # theirs are the last ones: what is left of all weights behind the others
+            own = summed[:, n] - summed[:, high]
+            mixed = summed[:, n] * own - _products(weights[:, high:], summed, n - self._above[::-1], taken)
+            shares[2] = 2.0 * mixed - own**2
+        shares[1] = 1.0 - shares[0] - shares[2]
+        return shares
+
+
+def _products(weights: Array, summed: Array, places: Array, taken: Array) -> Array:
+    """(draws,): sums of weights, each times a sum of the others. places : of these sums;  taken : room for them"""
+    room = taken[: weights.size].reshape(weights.shape)
+    found: Array = np.einsum("di,di->d", weights, np.take(summed, places, axis=1, mode="clip", out=room))
+    return found
+
+
+def _partners(ranked: Array, edge: float) -> Array:
+    """Of each value that has a sum below the edge with itself, how many of the ranked values do; falling."""
+    partners = np.searchsorted(ranked, edge - ranked, side="left")
+    found: Array = partners[partners > np.arange(ranked.size)]
+    return found
 
 
 @lru_cache(maxsize=16)

@@ -93,7 +93,7 @@ def friedman(samples: Sequence[ArrayLike]) -> Friedman:
 
     blocks = np.array([np.asarray(sample, dtype=float) for sample in samples]).T  # (blocks, k)
     count, k = blocks.shape
-    ranks = np.array([stats.rankdata(block) for block in blocks]).reshape(count, k)
+    ranks = np.ascontiguousarray(stats.rankdata(blocks, axis=1)) if blocks.size else np.empty((count, k))
     mean_ranks = [float(rank) for rank in ranks.mean(axis=0)] if count else [float("nan")] * k
     varies = count > 0 and bool(np.any(ranks != ranks[:, :1]))
     if k < 3 or count < ENOUGH:

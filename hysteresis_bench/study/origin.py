@@ -9,9 +9,12 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from hysteresis_bench import registry
-from hysteresis_bench.study.study_file import OptimizerSpec, ProblemSpec, Study
+
+if TYPE_CHECKING:  # a fit has versions, too, and no study
+    from hysteresis_bench.study.study_file import OptimizerSpec, ProblemSpec, Study
 
 Trial = tuple[str, str, int, int]
 """problem, optimizer, instance, number"""

@@ -16,6 +16,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.fit.objective import Trace
+from hysteresis_bench.study.kept_files.packed import unpacked
 from hysteresis_bench.study.kept_files.trial_rows import FIRST, KEY, MEASURED, check_rows
 from hysteresis_bench.study.origin import Trial
 
@@ -197,5 +198,5 @@ def _packed(trace: Trace) -> bytes:
 
 
 def _unpacked(blob: bytes) -> Trace:
-    with np.load(io.BytesIO(blob)) as arrays:
-        return Trace(arrays["evaluations"], arrays["losses"], arrays["points"])
+    arrays = unpacked(blob)
+    return Trace(arrays["evaluations"], arrays["losses"], arrays["points"])

@@ -2,6 +2,7 @@
 
 import io
 import re
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
@@ -82,14 +83,20 @@ def test_the_summary_is_what_one_counts_by_hand(tiny):
 
 
 def test_fitness_after_the_papers_iterations_is_read_from_the_traces(tiny):
-    row = at_iterations(tiny, 2).set_index("optimizer").loc["pso"]  # 50 particles, 3 swarms: 150 evaluations
+    row = (
+        at_iterations(tiny, problems(tiny, any_budget=True), 2).set_index("optimizer").loc["pso"]
+    )  # 50 particles, 3 swarms: 150 evaluations
     assert row["evaluations"] == 150
     assert row["fitness_median"] == 5.0
     assert row["fitness_best"] == 4.0
 
 
 def test_who_has_no_iterations_or_not_enough_budget_is_told(results):
-    notes = at_iterations(results, 300).query("problem == @LINEAR").set_index("optimizer")["note"]
+    notes = (
+        at_iterations(results, problems(results, any_budget=True), 300)
+        .query("problem == @LINEAR")
+        .set_index("optimizer")["note"]
+    )
     assert notes["random-search"] == "has no iterations"
     assert notes["scipy-differential-evolution"] == "beyond the budget"
     assert notes["pso"] == ""
@@ -125,11 +132,11 @@ def test_with_few_trials_nothing_is_claimed(tmp_path):
 
 
 def test_those_who_cannot_be_told_apart_are_named(results):
-    problem = problems(results)[0]
+    found = problems(results)[0]
+    best = found.rows[found.winner]["fitness"].to_numpy()
+    alike = {label: rows.assign(fitness=best, status="done") for label, rows in found.rows.items()}
+    problem = replace(found, rows=alike)  # everybody as good as the winner
     tied = [label for label in problem.labels if label != problem.winner]
-    for label in tied:  # everybody as good as the winner
-        problem.rows[label]["fitness"] = problem.rows[problem.winner]["fitness"].to_numpy()
-        problem.rows[label]["status"] = "done"
     [sentence] = winners([problem], summarise(results))
     assert "In this instance, we cannot tell it apart from" in sentence
     assert set(problem.tied_with_winner) == set(tied)

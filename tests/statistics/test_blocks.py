@@ -7,8 +7,8 @@ import pytest
 
 from benchmarks.verdicts import study, verdicts
 from hysteresis_bench import statistics
-from hysteresis_bench.statistics.effect_size import scores
-from hysteresis_bench.statistics.equivalence import PRIOR, practical
+from hysteresis_bench.statistics.equivalence import DRAWS, PRIOR, _weights, practical
+from hysteresis_bench.statistics.ranks import differences
 from hysteresis_bench.statistics.resampling import counts, percentiles
 
 RNG = np.random.default_rng(1)
@@ -57,6 +57,38 @@ def test_a12_does_not_mix_instances():
     theirs = tuple(np.array([level + 0.1, level + 0.2]) for level in levels)
     assert statistics.a12_interval(ours, theirs) == (1.0, 1.0, 1.0)
     assert statistics.a12(np.concatenate(ours), np.concatenate(theirs)) < 0.6
+
+
+def scores(ours, theirs, tie):
+    """Every pair by itself: 1 where ours is the lower one, 1/2 where they are equal, or within the tie."""
+    x, y = ours[:, None], theirs[None, :]
+    with np.errstate(invalid="ignore"):
+        even = (x == y) | (np.abs(x - y) <= tie)
+    return np.where(even, 0.5, x < y)
+
+
+@pytest.mark.parametrize("tie", [0.0, 1e-6, 0.1, 0.3])
+def test_pairs_counted_by_order_are_those_counted_one_by_one(tie):
+    for sizes in [(30, 40), (1, 7), (7, 1), (200, 200)]:
+        ours, theirs = (RNG.integers(-5, 6, size) / 10 + 1e-6 * RNG.integers(-2, 3, size) for size in sizes)
+        ours[: sizes[0] // 5], theirs[: sizes[1] // 7] = np.inf, np.inf
+        assert statistics.a12(ours, theirs, tie) == scores(ours, theirs, tie).mean()
+
+
+@pytest.mark.parametrize("shift", [0.0, 0.004, 0.02, -0.03, 0.5])
+@pytest.mark.parametrize("spread", [0.0, 0.001, 0.02])
+def test_the_favoured_regions_are_those_of_all_sums(shift, spread):
+    """Most draws are told by what lies in a single region; here from every pair."""
+    ours, theirs, region = RNG.normal(0.0, 0.1, 40), RNG.normal(0.0, spread, 40), 0.01
+    theirs += ours - shift
+    ours[:3], theirs[2:4] = np.inf, np.inf
+    z = np.concatenate([[0.0], differences(ours, theirs)])
+    sums, weights = z[:, None] + z[None, :], _weights(z.size)
+    inside = [sums < -2 * region, np.abs(sums) <= 2 * region, sums > 2 * region]
+    shares = [np.einsum("di,di->d", weights @ pairs, weights) for pairs in inside]
+    favoured = np.bincount(np.argmax(shares, axis=0), minlength=3) / DRAWS
+    found = practical(ours, theirs, region)
+    assert (found.better, found.equivalent, found.worse) == tuple(favoured)
 
 
 @pytest.mark.parametrize(("n", "m", "tie"), [(30, 30, 0.0), (17, 40, 0.05), (1, 5, 0.1), (14, 3, 1e-3)])

@@ -52,7 +52,7 @@ def curve(problem: Problem, label: str) -> tuple[Array, Array]:
         return np.full(POINTS, np.nan), np.full(POINTS, np.nan)
     counts = np.geomspace(1.0, float(np.nanmax(spent)), POINTS)
     known = problem.known(label)
-    best = np.array([problem.best_at(label, key, counts) for key in problem.keys(label)])
+    best = problem.best_after(label, counts)
     over = np.divide(best, known[:, None], out=best.copy(), where=(known > 0.0)[:, None] & np.isfinite(known)[:, None])
     medians: Array = np.array([statistics.quantile(problem.per_block(label, column), 0.5) for column in over.T])
     return counts * float(np.median(usable)), np.maximum(medians, 1.0)

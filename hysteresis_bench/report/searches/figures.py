@@ -34,7 +34,7 @@ def convergence(folder: Path, name: str, problem: Problem, *, looks: Mapping[str
         axes = figure.add_subplot()
         ends = {}
         for label in shown:
-            best = np.array([problem.best_at(label, key, counts) for key in problem.keys(label)])
+            best = problem.best_after(label, counts)
             best = np.maximum(best, problem.known(label)[:, None]) / _scale(problem, label)[:, None]
             quartiles = [_finite([statistics.quantile(column, q) for column in best.T]) for q in (0.25, 0.5, 0.75)]
             low, middle, high = quartiles
@@ -158,10 +158,7 @@ def runtime(folder: Path, name: str, problem: Problem, *, looks: Mapping[str, Lo
     counts = np.unique(np.geomspace(1, budget, 200).astype(int))
     curves = {}
     for label in problem.labels:
-        hits = [
-            [problem.first_below(label, key, problem.best[key[0]] * (1.0 + excess)) for excess in EXCESSES]
-            for key in problem.keys(label)
-        ]
+        hits = problem.reached(label, problem.known(label)[:, None] * (1.0 + EXCESSES))
         curves[label] = statistics.ecdf(hits, counts)
 
     def draw(figure: Any) -> None:

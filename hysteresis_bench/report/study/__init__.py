@@ -5,11 +5,10 @@ from __future__ import annotations
 from contextlib import suppress
 from pathlib import Path
 
-import pandas as pd
-
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.trials.summary import other_budgets, summarise
+from hysteresis_bench.report.trials.compared import Compared
+from hysteresis_bench.report.trials.summary import summarise
 from hysteresis_bench.study.afterwards.closing_files import CLOSING
 from hysteresis_bench.study.afterwards.once_more import responses_once_more
 from hysteresis_bench.study.results import REPORT, RESPONSES, SUMMARY, TRIALS, read_results
@@ -45,9 +44,8 @@ def write_report(folder: Path) -> Path:
     if closing and closing.finished and not closing.responses.empty and not richer:
         with suppress(*CONTENT):  # the section on it tells what is damaged
             write_diagnosis_page(folder / CLOSING, files_kept=not results.kept_small)
-    summary = summarise(results)
-    parts = [summary, *(summarise(results, budget) for budget in other_budgets(results))]
+    compared = Compared.of(results)
     if not richer:
-        write_table(folder / SUMMARY, pd.concat(part for part in parts if not part.empty))
-        write_tables(results, summary, folder)
-    return study_page(results, summary, folder).write(folder / (FROM_TABLES if richer else REPORT))
+        write_table(folder / SUMMARY, compared.rows)
+        write_tables(results, compared, folder)
+    return study_page(results, compared, folder).write(folder / (FROM_TABLES if richer else REPORT))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from hysteresis_bench import statistics
 from hysteresis_bench.report.shared.text import NONE, number, percent, probability, seconds, whole
 from hysteresis_bench.report.study import run
-from hysteresis_bench.report.trials.summary import problems, summarise
+from hysteresis_bench.report.trials.summary import problems, summary_of
 from hysteresis_bench.study.results import Results
 
 if TYPE_CHECKING:
@@ -18,8 +18,8 @@ def print_summary(results: Results, console: Console) -> None:
     """One table a problem, best median first, and a line that says what the trials can tell."""
     from rich.table import Table
 
-    summary = summarise(results)
     here = problems(results)
+    summary = summary_of(here, results.study.budget)
     for problem in here:
         table = Table(title=problem.name, title_justify="left", title_style="bold", box=None, pad_edge=False)
         table.add_column("optimizer", no_wrap=True)

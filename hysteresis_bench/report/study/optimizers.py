@@ -22,9 +22,10 @@ from hysteresis_bench.report.shared.text import (
 from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.study.definitions import SUCCESS
 from hysteresis_bench.report.study.words import winners
+from hysteresis_bench.report.trials.compared import Compared
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.report.trials.seeds import anchor
-from hysteresis_bench.report.trials.summary import at_iterations, other_budgets, problems, summarise
+from hysteresis_bench.report.trials.summary import at_iterations
 from hysteresis_bench.study.results import Results
 
 
@@ -41,27 +42,23 @@ def at_equal_evaluations(
     return Section("optimizers", "All optimizers at equal evaluations", blocks)
 
 
-def at_other_budgets(results: Results) -> Section | None:
-    """None where all optimizers have the study's budget."""
-    tables = [
-        table(problem, summarise(results, budget))
-        for budget in other_budgets(results)
-        for problem in problems(results, budget)
-    ]
+def at_other_budgets(others: Sequence[tuple[Sequence[Problem], pd.DataFrame]]) -> Section | None:
+    """others : the problems at each other budget, with their summary;  None where there is none."""
+    tables = [table(problem, summary) for here, summary in others for problem in here]
     how = "Optimizers that the study gives more or fewer evaluations, compared among themselves only."
     return Section("budgets", "At other budgets", [how, *tables]) if tables else None
 
 
-def at_the_papers_iterations(results: Results, here: Sequence[Problem], count: int | None) -> Section | None:
+def at_the_papers_iterations(results: Results, compared: Compared, count: int | None) -> Section | None:
     """count : of iterations after the first swarm; None where the paper does not say."""
-    if not count or not here or not results.traces:
+    if not count or not compared.here or not results.traces:
         return None
     how = (
         "An iteration costs different algorithms different numbers of evaluations, and some have none. Read from the "
         "same trials, whose schedules were set for the whole budget."
     )
-    frame = at_iterations(results, count)
-    tables = [_at(frame, problem, count) for problem in here]
+    frame = at_iterations(results, compared.everybody, count)
+    tables = [_at(frame, problem, count) for problem in compared.here]
     return Section("iterations", "At the paper’s number of iterations", [how, *tables])
 
 

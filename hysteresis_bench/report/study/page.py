@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-import pandas as pd
-
 from hysteresis_bench.errors import told
 from hysteresis_bench.report.paper import audit, beside, claims, decisions
 from hysteresis_bench.report.paper.claims_file import write_claims
@@ -29,8 +27,8 @@ from hysteresis_bench.report.study import (
     words,
 )
 from hysteresis_bench.report.trials import instances, seeds, targets
+from hysteresis_bench.report.trials.compared import Compared
 from hysteresis_bench.report.trials.latex import write_latex
-from hysteresis_bench.report.trials.summary import problems
 from hysteresis_bench.study.results import Results
 
 Part = Callable[[], Section | None]
@@ -56,25 +54,24 @@ CONTENT = (KeyError, IndexError, ValueError, TypeError, AttributeError)
 """What a table or an object raises that has not the content it was written with."""
 
 
-def write_tables(results: Results, summary: pd.DataFrame, folder: Path) -> None:
-    """The verdicts on claims as CSV, and the main tables for LaTeX. summary : of summarise(results)
+def write_tables(results: Results, compared: Compared, folder: Path) -> None:
+    """The verdicts on claims as CSV, and the main tables for LaTeX.
 
     Raises UserError where the published file has faults.
     """
-    judged = claims.judge(check_published(results.published), problems(results, any_budget=True))
-    main = [claims.table(judged), *(optimizers.table(problem, summary) for problem in problems(results))]
+    judged = claims.judge(check_published(results.published), compared.everybody)
+    main = [claims.table(judged), *(optimizers.table(problem, compared.summary) for problem in compared.here)]
     write_latex(folder, [table for table in main if table])
     write_claims(folder, judged)
 
 
-def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
+def study_page(results: Results, compared: Compared, folder: Path) -> Page:
     """The whole page; its figures are written to the folder.
 
-    summary : of summarise(results)
     Raises UserError where the published file has faults.
     """
     published = check_published(results.published)
-    here, everybody = problems(results), problems(results, any_budget=True)
+    here, everybody, summary = compared.here, compared.everybody, compared.summary
     judged = claims.judge(published, everybody)
     reference = here[0].reference if here else results.study.reference
     looks = choose(here, reference, published.optimizers, floor=floors(results.study))
@@ -84,9 +81,9 @@ def study_page(results: Results, summary: pd.DataFrame, folder: Path) -> Page:
     parts: list[Part] = [
         lambda: beside.section(published, results, everybody),
         lambda: optimizers.at_equal_evaluations(here, summary, reference, pictures[FIRST_SCREEN:]),
-        lambda: optimizers.at_other_budgets(results),
+        lambda: optimizers.at_other_budgets(compared.others),
         lambda: targets.section(here, results.study.budget),
-        lambda: optimizers.at_the_papers_iterations(results, here, published.iterations),
+        lambda: optimizers.at_the_papers_iterations(results, compared, published.iterations),
         lambda: searches.section(results, here, published.optimizers, looks=looks, folder=folder),
         lambda: signals.section(results, here, published.optimizers, looks=looks, folder=folder),
         lambda: held_out.section(results, here, summary, published=published),

@@ -6,7 +6,7 @@ the blocks, and what is found holds in this instance alone.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -23,6 +23,9 @@ Key = tuple[int, int]
 
 PRACTICAL = {"fitness": "relative_rms"}
 """On what equivalence is judged, where not on the metric itself: a fitness may be a square."""
+
+
+NONE, NEVER = np.empty(0), np.array([INF])
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,8 +71,14 @@ class Problem:
         return f"{self.blocks} {word}{'s' * (self.blocks != 1)}"
 
     def keys(self, label: str) -> list[Key]:
-        rows = self.rows[label]
-        return list(zip(map(int, rows["instance"]), map(int, rows["trial"]), strict=True))
+        return self._keys[label]
+
+    @cached_property
+    def _keys(self) -> dict[str, list[Key]]:
+        return {
+            label: list(zip(map(int, rows["instance"]), map(int, rows["trial"]), strict=True))
+            for label, rows in self.rows.items()
+        }
 
     def has(self, metric: str) -> bool:
         """Whether it is known of any trial."""
@@ -78,8 +87,12 @@ class Problem:
     def values(self, label: str, metric: str) -> Array:
         """(trials,) of one metric, a column of trials.csv or evaluations_to_success."""
         if metric == TO_SUCCESS:
-            return np.array([self.first_below(label, key, NEAR * self.best[key[0]]) for key in self.keys(label)])
+            return self._to_success[label]
         return metric_values(self.rows[label], metric)
+
+    @cached_property
+    def _to_success(self) -> dict[str, Array]:
+        return {label: self.reached(label, NEAR * self.known(label)[:, None])[:, 0] for label in self.rows}
 
     def known(self, label: str) -> Array:
         """(trials,): the best known fitness of every trial's instance."""
@@ -108,7 +121,15 @@ class Problem:
     def sample(self, label: str, metric: str = "fitness") -> statistics.Sample:
         """As the tests take it: paired, on a logarithmic scale, what is exact or EQUAL to the best known not told
         apart."""
-        return statistics.Sample(self._paired(label, metric), self._paired(label, PRACTICAL.get(metric, metric)))
+        if (asked := (label, metric)) not in self._samples:
+            paired = [self._paired(label, each) for each in (metric, PRACTICAL.get(metric, metric))]
+            self._samples[asked] = statistics.Sample(*paired)
+        return self._samples[asked]
+
+    @cached_property
+    def _samples(self) -> dict[tuple[str, str], statistics.Sample]:
+        """By optimizer and metric, what was asked for so far."""
+        return {}
 
     def _paired(self, label: str, metric: str) -> tuple[Array, ...]:
         values = self.values(label, metric)
@@ -132,19 +153,30 @@ class Problem:
         """Whether no trial has a result."""
         return not any(np.isfinite(known) for known in self.best.values())
 
-    def first_below(self, label: str, key: Key, target: float) -> float:
-        """Evaluations after which a trial's best was at or below the target; inf if never, NaN where the course of the
-        searches was not kept."""
-        if not self.traces:
-            return float("nan")
-        evaluations, losses = self.traces.get((label, *key), (np.empty(0), np.empty(0)))
-        hits = np.nonzero(losses <= target)[0]
-        return float(evaluations[hits[0]]) if hits.size and np.isfinite(target) else INF
+    def reached(self, label: str, targets: Array) -> Array:
+        """(trials, targets): evaluations after which a trial's best was at or below each of its targets; inf if never,
+        NaN where the course of the searches was not kept. targets : (trials, targets)"""
+        found = np.full(targets.shape, INF if self.traces else np.nan)
+        for row, asked, (counts, losses) in zip(found, targets, self._courses(label), strict=True):
+            if losses.size:
+                places = np.searchsorted(-np.fmin.accumulate(losses), -asked)
+                np.take(np.concatenate((counts, NEVER)), places, out=row)
+        if self.traces:
+            found[~np.isfinite(targets)] = INF
+        return found
 
-    def best_at(self, label: str, key: Key, evaluations: Array) -> Array:
-        """Best fitness of a trial after so many evaluations; inf before the first, and where it failed."""
-        counts, losses = self.traces.get((label, *key), (np.empty(0), np.empty(0)))
-        return np.concatenate([[INF], losses])[np.searchsorted(counts, evaluations, side="right")]
+    def best_after(self, label: str, evaluations: Array) -> Array:
+        """(trials, evaluations): best fitness of every trial after so many evaluations; inf before the first, and where
+        it failed. evaluations : (evaluations,)"""
+        found = np.full((len(self.rows[label]), evaluations.size), INF)
+        for row, (counts, losses) in zip(found, self._courses(label), strict=True):
+            if losses.size:
+                np.take(np.concatenate((NEVER, losses)), np.searchsorted(counts, evaluations, side="right"), out=row)
+        return found
+
+    def _courses(self, label: str) -> Iterator[tuple[Array, Array]]:
+        """Of every trial the counts and losses of its trace, empty where it has none."""
+        return (self.traces.get((label, *key), (NONE, NONE)) for key in self.keys(label))
 
     def repeats_itself(self, label: str) -> bool:
         """Whether an optimizer is deterministic: wherever an instance has several trials, all came to the same."""

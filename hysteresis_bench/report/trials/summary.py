@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 
@@ -77,9 +79,12 @@ def summarise(results: Results, budget: int | None = None) -> pd.DataFrame:
     trials count as infinitely bad in all of them; p-values are empty below 14 instances, or trials of a single one.
     budget : of the optimizers that are compared, the study's own without one
     """
-    here = problems(results, budget)
-    evaluations = budget or results.study.budget
-    return pd.DataFrame([_row(problem, label, evaluations) for problem in here for label in problem.ranked])
+    return summary_of(problems(results, budget), budget or results.study.budget)
+
+
+def summary_of(here: Sequence[Problem], budget: int) -> pd.DataFrame:
+    """As `summarise`, of problems at a budget."""
+    return pd.DataFrame([_row(problem, label, budget) for problem in here for label in problem.ranked])
 
 
 def _row(problem: Problem, label: str, budget: int) -> dict[str, object]:
@@ -158,14 +163,14 @@ def _successes(problem: Problem, label: str) -> dict[str, object]:
     }
 
 
-def at_iterations(results: Results, iterations: int) -> pd.DataFrame:
-    """Fitness after the first swarm and so many iterations, for each optimizer that has iterations.
+def at_iterations(results: Results, everybody: Sequence[Problem], iterations: int) -> pd.DataFrame:
+    """Fitness after the first swarm and so many iterations, for each that has iterations, whatever its budget.
 
     Columns: problem, optimizer, evaluations_per_iteration, evaluations, fitness_best, fitness_median,
     fitness_q1, fitness_q3, note ("" or why there is no number).
     """
     rows = []
-    for problem in problems(results, any_budget=True):
+    for problem in everybody:
         for label in problem.ranked:
             made = results.provenance.get("optimizers", {}).get(label, {})
             cost = made.get("evaluations_per_iteration")
@@ -177,7 +182,7 @@ def at_iterations(results: Results, iterations: int) -> pd.DataFrame:
                 row |= {"evaluations": cost * (iterations + 1), "note": "beyond the budget"}
             else:
                 spent = min(cost * (iterations + 1), budget)  # a first swarm may cost less than an iteration
-                at = [problem.best_at(label, key, np.array([spent]))[0] for key in problem.keys(label)]
+                at = problem.best_after(label, np.array([spent]))[:, 0]
                 row["evaluations"] = spent
                 row |= {
                     f"fitness_{name}": statistics.quantile(at, q)

@@ -54,7 +54,7 @@ def _table(problem: Problem, budget: int) -> Table:
 
 def _running_time(problem: Problem, label: str, excess: float) -> float:
     targets = (1.0 + excess) * problem.known(label)
-    hits = [problem.first_below(label, key, target) for key, target in zip(problem.keys(label), targets, strict=True)]
+    hits = problem.reached(label, targets[:, None])[:, 0]
     spent = pd.to_numeric(problem.rows[label]["evaluations"]).to_numpy(dtype=float, na_value=0.0)
     return statistics.expected_running_time(hits, spent)
 
@@ -67,7 +67,7 @@ def area_over_curve(problem: Problem, label: str, budget: int) -> float:
     Ours: targets from ten times the best known down to it, both axes logarithmic.
     """
     counts = np.geomspace(1, max(budget, 2), POINTS)
-    best = np.array([problem.best_at(label, key, counts) for key in problem.keys(label)])
+    best = problem.best_after(label, counts)
     known = problem.known(label)[:, None]
     over = np.divide(best, known, out=np.full(best.shape, np.inf), where=(known > 0.0) & np.isfinite(known))
     areas = 1.0 - np.log10(np.clip(over, 1.0, 10.0)).mean(axis=1)
@@ -77,7 +77,7 @@ def area_over_curve(problem: Problem, label: str, budget: int) -> float:
 def _after(problem: Problem, label: str, evaluations: int) -> float:
     """Median fitness over the best known after so many evaluations."""
     count = np.array([evaluations])
-    best: Array = np.array([problem.best_at(label, key, count)[0] for key in problem.keys(label)])
+    best: Array = problem.best_after(label, count)[:, 0]
     known = problem.known(label)
     over = np.divide(best, known, out=np.full(best.size, np.inf), where=(known > 0.0) & np.isfinite(known))
     return statistics.quantile(problem.per_block(label, np.maximum(over, 1.0)), 0.5)
