@@ -140,9 +140,9 @@ def _how() -> Bullets:
                 "backstress took their error on the fitted part from 16.1 to 15.9 MPa"
             ),
             sentence(
-                "that no law is taken that runs away on the inputs held out was set after the errors of the "
-                "battery and of the coupon S355 were known, and tried on made data; so were the round corners of "
-                "pinching added after that of the timber wall"
+                "that no law is taken that runs away on the inputs held out was set after the error of the battery "
+                "was known, and tried on made data; the round corners of pinching were added after that of the "
+                "timber wall"
             ),
             sentence(
                 "the battery comes back in its last third through charges that the fitted part passed one way "

@@ -21,7 +21,7 @@ def test_it_is_a_share_of_the_range_on_either_side():
     assert outside([np.array([4.0, 3.5, 3.0, 2.5, 2.0])], records(within)) == 0.0
 
 
-def test_what_lies_beyond_the_fitted_inputs_does_not_count():
+def test_a_record_that_goes_beyond_the_fitted_inputs_does_not_count():
     response = np.array([9.0, 4.0, 3.0, 2.5, 2.2])
     assert outside([response], records([1.5, 1.0, 0.5, 0.3, 0.1])) == 0.0
     assert outside([response], records([1.04, 1.0, 0.5, 0.3, 0.1])) == pytest.approx(2.5)

@@ -12,7 +12,9 @@ from hysteresis_bench.signals import Dataset
 
 
 def outside(responses: Sequence[Array], dataset: Dataset) -> float:
-    """As a share of that range, where the held-out inputs lie within the fitted ones; 0 where nothing is held out.
+    """As a share of that range, over held-out records whose inputs stay within the fitted ones; 0 where there is none.
+
+    A device that is driven further may rightly go beyond, on its way back too.
 
     responses : (scored samples,) to every held-out record
     """
@@ -22,7 +24,6 @@ def outside(responses: Sequence[Array], dataset: Dataset) -> float:
     most = 0.0
     for record, response in zip(dataset.held_out, responses, strict=True):
         driven = record.input[record.scored]
-        inside = response[(driven >= inputs.min() - slack) & (driven <= inputs.max() + slack)]
-        if inside.size:
-            most = max(most, low - float(inside.min()), float(inside.max()) - high)
+        if driven.min() >= inputs.min() - slack and driven.max() <= inputs.max() + slack:
+            most = max(most, low - float(response.min()), float(response.max()) - high)
     return most / (high - low) if high > low else 0.0
