@@ -22,10 +22,11 @@ grows thirtyfold (drive steep) 7 in place of 6 came within 1.2 times, and the ge
 where the last third counted however much further it went, 2.25.
 
 Laws that follow the same records about equally well differ where nothing holds them, as on a way back that was not
-recorded. One that, on held-out records whose inputs stay within the fitted ones, leaves the range of the fitted outputs by
-`SLACK` of it more than half of the laws do is not taken. Of 92 choices on made data, the maker not among the laws, none
-changed; of 15 measured devices a battery's electrode, from 4.0 to 1.0 times the least error. Where inputs beyond the
-fitted ones counted in part, 1 made choice became better and 4 worse (drive steep, up to 9.8 times the least error).
+recorded. One that, on held-out records whose inputs stay within the fitted ones, leaves the range of the fitted
+outputs by `SLACK` of it more than half of the laws do is not taken. Of 92 choices on made data, the maker not among
+the laws, none changed; of 15 measured devices a battery's electrode, from 4.0 to 1.0 times the least error. Where
+inputs beyond the fitted ones counted in part, 1 made choice became better and 4 worse (drive steep, up to 9.8 times
+the least error).
 
 [1] H. Akaike, Ann. Inst. Stat. Math. 21 (1969) 243.
 """
