@@ -140,6 +140,26 @@ def _how() -> Bullets:
                 "backstress took their error on the fitted part from 16.1 to 15.9 MPa"
             ),
             sentence(
+                "that no law is taken that runs away on the inputs held out was set after the error of the battery "
+                "was known, and tried on made data; the round corners of pinching were added after that of the "
+                "timber wall"
+            ),
+            sentence(
+                "the battery comes back in its last third through charges that the fitted part passed one way "
+                "only; its branches are 0.19 V apart there, RMS, and 0.03 V in what was fitted, so that no law can "
+                "know how it comes back; fitted to everything, what is held out included, the best of these laws "
+                "leaves 0.032 V there"
+            ),
+            sentence(
+                "what is held out of the two walls goes 1.6 times as far as what was fitted; fitted to everything, "
+                "the best laws leave 2.9 kN there on the timber wall, and 2.6 kN on the rocking one, whose bend "
+                "sinks from about 0.11 m on: nothing in the fitted part tells of it"
+            ),
+            sentence(
+                "the full-amplitude record of the piezo stack drifts by 0.48 µm in 40 s, the fitted one does not: "
+                "beside a straight line in time its law leaves 0.13 µm"
+            ),
+            sentence(
                 "asked for steel and ferrite is a share of the largest flux density of all loops, for dampers, walls "
                 "and the cylinder three times the upper end of what cycles repeat to"
             ),

@@ -1,5 +1,7 @@
 """Which law is taken: what a richer one gains must be more than its parameters are worth on so many blocks."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -32,6 +34,15 @@ def test_parameters_do_not_weigh_where_what_is_asked_is_like_what_was_left_out()
 
 def test_no_law_is_taken_where_the_polynomial_does_better():
     assert choose([law("dahl", 11.0, 5), Law("lugre", "why not")], PLAIN, blocked([400], [20], 4))[0] == ""
+
+
+def test_a_law_that_runs_away_is_not_taken():
+    laws = [replace(law("dahl", 1.0, 5), outside=0.45), law("lugre", 1.1, 7), law("bouc-wen", 2.0, 4)]
+    name, words = choose(laws, PLAIN, blocked([400], [200], 4))
+    assert name == "lugre"
+    assert "Not taken: dahl (45 % of it), beyond the range of the fitted outputs" in words
+    alike = [replace(one, outside=0.45) for one in laws]  # as where the device itself goes on
+    assert choose(alike, PLAIN, blocked([400], [200], 4))[0] == "dahl"
 
 
 def test_a_fold_is_judged_by_what_the_others_chose():

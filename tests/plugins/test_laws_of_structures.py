@@ -5,6 +5,7 @@ import pytest
 
 from hysteresis_plugins.models.chaboche import Chaboche
 from hysteresis_plugins.models.folz_filiatrault import FolzFiliatrault
+from hysteresis_plugins.models.pinching import Pinching
 from hysteresis_plugins.models.self_centring import SelfCentring
 from tests.plugins.truths import assert_found_again, record, waves
 
@@ -14,6 +15,11 @@ TRUTHS = (
     (
         FolzFiliatrault(),
         {"u_y": 0.1, "r_1": 0.05, "r_3": 1.2, "f_I": 0.1, "r_4": 0.3, "alpha": 0.6, "beta": 1.05},
+        {"F_0": 1.5},
+    ),
+    (
+        Pinching(),
+        {"u_y": 0.1, "r_1": 0.08, "f_I": 0.05, "gamma": 0.4, "r_4": 0.7, "beta": 1.05, "rho": 0.08, "corner": 0.3},
         {"F_0": 1.5},
     ),
     (
@@ -36,7 +42,7 @@ def test_they_take_energy_from_a_closed_path(law, known, linear):
 
 
 def test_a_rocking_wall_comes_back_to_its_centre():
-    law, known, linear = TRUTHS[2]
+    law, known, linear = TRUTHS[-1]
     one = record(law, waves(), **known, **{**linear, "F_y": 0.0})
     rest = record(law, np.full(3, 0.02), **known, **{**linear, "F_y": 0.0})
     np.testing.assert_allclose(rest.output, 0.0, atol=1e-15)

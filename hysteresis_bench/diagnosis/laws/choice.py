@@ -21,6 +21,13 @@ geometric mean was 1.45 in place of 1.94 times; 3 in place of 6 were worse than 
 grows thirtyfold (drive steep) 7 in place of 6 came within 1.2 times, and the geometric mean was 1.47 in place of 1.56;
 where the last third counted however much further it went, 2.25.
 
+Laws that follow the same records about equally well differ where nothing holds them, as on a way back that was not
+recorded. One that, on held-out records whose inputs stay within the fitted ones, leaves the range of the fitted
+outputs by `SLACK` of it more than half of the laws do is not taken. Of 92 choices on made data, the maker not among
+the laws, none changed; of 15 measured devices a battery's electrode, from 4.0 to 1.0 times the least error. Where
+inputs beyond the fitted ones counted in part, 1 made choice became better and 4 worse (drive steep, up to 9.8 times
+the least error).
+
 [1] H. Akaike, Ann. Inst. Stat. Math. 21 (1969) 243.
 """
 
@@ -28,8 +35,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.unseen.blocks import Blocks
+
+SLACK = 0.1
+"""Share of the range of the fitted outputs."""
 
 
 def choose(laws: Sequence[Law], plain: float, blocks: Blocks, *, like: bool = False) -> tuple[str, str]:
@@ -38,12 +50,14 @@ def choose(laws: Sequence[Law], plain: float, blocks: Blocks, *, like: bool = Fa
     laws : the best first;  plain : RMSE of the polynomial without memory, as `Law.rmse`
     blocks : what was left out together;  like : it is like what is asked, and parameters do not weigh
     """
-    fitted = [law for law in laws if law.unseen.size]
+    fitted, away = _steady([law for law in laws if law.unseen.size])
     if not fitted or fitted[0].rmse >= plain:
         return "", "No law predicts what it did not see better than a cubic polynomial of the input, without memory."
     count, best = int(blocks.block.max()) + 1, fitted[0]
     simpler = min(fitted, key=lambda law: expected(law, count))
     told = f"{best.model} predicts best what it did not see: {best.rmse / plain:.3g} of the polynomial's error."
+    if ahead := [law for law in away if expected(law, count) < expected(simpler, count)]:
+        told += f" {_left_out(ahead)}"
     if simpler is best:
         return best.model, told
     if like:
@@ -55,6 +69,20 @@ def choose(laws: Sequence[Law], plain: float, blocks: Blocks, *, like: bool = Fa
         f"{told} {simpler.model} is taken, {simpler.rmse / plain:.3g} with {simpler.parameters} parameters in place of "
         f"{best.parameters}: with {count} blocks to judge by, a gain by so many more is not expected to carry over to "
         f"other excitations."
+    )
+
+
+def _steady(fitted: Sequence[Law]) -> tuple[list[Law], list[Law]]:
+    """Those that stay within `SLACK` of what half of them do, and those that run away."""
+    limit = SLACK + (float(np.median([law.outside for law in fitted])) if fitted else 0.0)
+    return [law for law in fitted if law.outside <= limit], [law for law in fitted if law.outside > limit]
+
+
+def _left_out(away: Sequence[Law]) -> str:
+    names = " and ".join(f"{law.model} ({100.0 * law.outside:.0f} % of it)" for law in away)
+    return (
+        f"Not taken: {names}, beyond the range of the fitted outputs where the inputs that are held out stay within "
+        "the fitted ones, and farther than most laws."
     )
 
 

@@ -14,7 +14,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.fit.accuracy import accuracy
+from hysteresis_bench.fit.accuracy import accuracy, simulated
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
@@ -23,6 +23,7 @@ from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing, solvable
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
 from hysteresis_bench.fit.unseen.likeness import judged
+from hysteresis_bench.fit.unseen.outside import outside
 from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Dataset, Record
 
@@ -41,6 +42,7 @@ class Law:
     fitted, held_out : RMSE over all samples, unit of the output; NaN where there are none
     seconds : CPU time;  reason : why there is no fit, "" where there is one
     ahead : errors of a lone record's last part, by a fit to what came before; empty where there are several
+    outside : share of the fitted outputs' range by which it leaves it on inputs that are held out
     """
 
     model: str
@@ -51,6 +53,7 @@ class Law:
     parameters: int = 0
     seconds: float = 0.0
     ahead: Array = field(default_factory=lambda: np.empty(0))
+    outside: float = 0.0
 
     @property
     def rmse(self) -> float:
@@ -95,7 +98,7 @@ class Laws:
         ahead = errors_without(problem, point, Blocks(~last, ~last, 1))[last, 0] if last.any() else unseen[last]
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
-        return Law(name, "", *self._errors(system, values), unseen, count, time.process_time() - begun, ahead)
+        return self._law(name, system, values, unseen=unseen, parameters=count, begun=begun, ahead=ahead)
 
     def _found(self, name: str) -> Hypothesis:
         """The best of searches from different seeds, where they are cheap until two of them agree."""
@@ -113,18 +116,20 @@ class Laws:
         """A law of many linear parameters, as smooth as predicts best."""
         found = Smoothing(problem).searched(judged(self.records, self.dataset))
         full = self.fitter(name, self.dataset.fitted).stack.problem({registry.RECORD_OFFSET})
-        errors = self._errors(full.system, Smoothing(full).refitted(found))
-        last = last_part(self.records)
-        ahead = Smoothing(problem).without(found, last)
-        return Law(name, "", *errors, found.left_out, round(found.freedom), time.process_time() - begun, ahead)
+        values, last = Smoothing(full).refitted(found), last_part(self.records)
+        judged_by = {"unseen": found.left_out, "ahead": Smoothing(problem).without(found, last)}
+        return self._law(name, full.system, values, parameters=round(found.freedom), begun=begun, **judged_by)
 
-    def _errors(self, system: System, values: Array) -> tuple[float, float]:
-        """RMSE over all samples of the fitted and of the held-out records; NaN where there are none."""
+    def _law(
+        self, name: str, system: System, values: Array, *, unseen: Array, ahead: Array, parameters: int, begun: float
+    ) -> Law:
+        """With its errors over all samples of the fitted and of the held-out records; NaN where there are none."""
         fitted, held_out = (
             accuracy(system, records, values).rmse if records else np.nan
             for records in (self.dataset.fitted, self.dataset.held_out)
         )
-        return fitted, held_out
+        away = outside(simulated(system, self.dataset.held_out, values), self.dataset)
+        return Law(name, "", fitted, held_out, unseen, parameters, time.process_time() - begun, ahead, away)
 
     def _reasons(self, fitter: Fitter) -> list[str]:
         system = fitter.stack.system(())
