@@ -133,3 +133,14 @@ def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, hide
 def test_many_samples_are_taken_as_they_are():
     found, _ = found_in("")
     assert not any("The samples are few" in one for one in found.warnings)
+
+
+def test_a_hum_that_passes_for_noise_is_named():
+    """Of four samples a period it looks like noise of six times the noise, which is more than the bare law leaves."""
+    settings = {"model": "jiles-atherton", "hide": 1, "draw": 8132, "imperfect": "coarse"}
+    records = ("slow", "fast", "nested", "sweep", "mixed")
+    data = measure("hidden-effects", *records, settings=settings, seed=3).split(records[-1:])
+    found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
+    assert found.effects == ("periodic-disturbance",)
+    assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
+    assert found.noise.floor < 1.3 * data.hidden["noise"]

@@ -26,6 +26,12 @@ class Evidence:
         loud = pooled_noise([view.noise for view in views_of(quieter)])
         return replace(self, noise=loud, floor=floor_of(self.views, loud))
 
+    def at_most(self, rmse: float) -> Evidence:
+        """With a floor no higher than what a fitted model leaves: what it explains is no noise, and something fast that
+        it does not explain, such as a hum, may still have passed for some."""
+        silent = replace(self.noise, rms=0.0, through_input=0.0)
+        return replace(self, floor=min(self.floor, max(rmse, floor_of(self.views, silent))))
+
 
 def gather(views: tuple[View, ...]) -> Evidence:
     """Of the fitted records."""

@@ -24,7 +24,7 @@ from hysteresis_bench.progress import Step
 
 QUIETER = 0.9
 """The noise without a disturbance that was found, over that with it, from which the search goes on with the new
-estimate."""
+estimate; and what the bare model leaves, over the floor, from which it is the floor."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,8 +69,10 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     options = question.options
     jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
     with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
-        selection = Selection(thin, workers, evidence.floor, possible)
         (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
+        if base.rmse < QUIETER * evidence.floor:
+            evidence = evidence.at_most(base.rmse)
+        selection = Selection(thin, workers, evidence.floor, possible)
         best = selection.run(base)
         quieter = evidence.heard_anew(undisturbed(full, best))
         if quieter.noise.floor < QUIETER * evidence.noise.floor:
