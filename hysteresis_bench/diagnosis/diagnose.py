@@ -97,11 +97,12 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
     left = remainder(stages.after, found.evidence)
-    # slow noise blames nobody, unless a curve without a formula was needed to come down to it
+    # slow noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
+    # clearly better shows that it is none
     blameless = left.slow and not forms_of(stages.adopted)
-    doubted = Doubt()
-    if not blameless:
-        doubted = doubt(found, question, laws, _of_few_parameters(registry.names("models")))
+    witnesses = [] if blameless else _of_few_parameters(registry.names("models"))
+    doubted = doubt(found, question, laws, witnesses)
+    if doubted != Doubt():
         known, found = found, answered(found, doubted, question.options)
         if found.best is not known.best:
             stages = settle_offset(prepared, found, question)

@@ -85,7 +85,7 @@ def test_a_delay_longer_than_any_that_is_tried():
     def late(record):
         return replace(record, output=np.interp(record.time - 0.7, record.time, record.output))
 
-    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 2), BARE)
+    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 4), BARE)
     assert found.verdict == "unexplained-residual"
     assert not found.effects or "may lack" in found.headline
 

@@ -65,7 +65,9 @@ class Doubt:
 
 
 def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequence[str]) -> Doubt:
-    """laws : which may be the right one;  witnesses : which are asked what they need"""
+    """laws : which may be the right one
+    witnesses : which are asked what they need; without any only a better law is sought
+    """
     options, stack, asked, floor = question.options, found.thin.stack, question.model, found.selection.floor
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
     if not found.follows or (final.rmse <= MATTERS * floor and not forms_of(final.effects)):
@@ -78,7 +80,7 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
         cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
-        if not wrong or (cause and cause.unseen <= MISFIT * floor):
+        if not wrong or not witnesses or (cause and cause.unseen <= MISFIT * floor):
             return Doubt(cause)
         (own,) = workers.map([("needy", asked)])
         good = [one.model for one in screened if one.rmse <= own.rmse and _is_rate_independent(one.model)]

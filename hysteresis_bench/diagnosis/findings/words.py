@@ -213,7 +213,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         )
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
-    if outcome.left.slow:
+    if outcome.left.slow and not outcome.cause:
         said.append(
             f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and is "
             "correlated, but depends on nothing that was measured here, and no term describes it: slow noise, or a "

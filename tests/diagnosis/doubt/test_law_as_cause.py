@@ -5,6 +5,7 @@ import json
 import pytest
 
 from hysteresis_bench import measure
+from hysteresis_bench.diagnosis import diagnose as diagnose_module
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
@@ -48,6 +49,18 @@ def test_a_wrong_law_is_told_and_nothing_is_named_in_its_place(tmp_path):
     page = write_diagnosis_page(tmp_path).read_text(encoding="utf-8")
     assert "bouc-wen is not the law here: ferroelectric does better" in page
     assert "stands in for the law" in page
+
+
+def test_what_another_law_explains_is_no_slow_noise(monkeypatch):
+    """Jiles-Atherton loops asked of a Preisach law: the rest looks like slow noise, and a saturation was named."""
+    monkeypatch.setattr(diagnose_module, "_of_few_parameters", lambda laws: ["bouc-wen", "jiles-atherton"])
+    records = ("slow", "fast", "nested", "sweep", "mixed")
+    data = measure("hidden-effects", *records, settings={"model": "jiles-atherton", "draw": 8082}, seed=3)
+    found = diagnose(data.split(records[-1:]), Question("preisach", options=OPTIONS))
+    assert found.effects == ()
+    assert found.better_law.model == "jiles-atherton"
+    assert found.better_law.unseen < 1.1 * found.floor
+    assert not any("slow noise" in one for one in found.warnings)
 
 
 @pytest.fixture(scope="module")
