@@ -64,9 +64,15 @@ def _page(results: Path, trial: str | None) -> Path:
 
 def _kept(results: Path, folder: Path) -> Path:
     """The folder that what is small was copied to."""
+    from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
+    from hysteresis_bench.study.results import STUDY, read_results
+
+    if is_diagnosis_study(results / STUDY):
+        from hysteresis_bench.diagnosis_study.results import keep_tables
+
+        return keep_tables(results, folder)
     from hysteresis_bench.report.paper.published import check_published
     from hysteresis_bench.study.afterwards.keep import keep_small
-    from hysteresis_bench.study.results import read_results
 
     read = read_results(results)
     return keep_small(read, folder, check_published(read.published).optimizers)

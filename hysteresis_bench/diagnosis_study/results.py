@@ -98,3 +98,16 @@ def check_same(folder: Path, study: DiagnosisStudy) -> None:
         faults.append(f"seed was {before.seed} there and is {study.seed} here.")
     if faults:
         raise UserError(f"{folder} holds another study", [*faults, "Choose another folder with --out."])
+
+
+def keep_tables(folder: Path, kept: Path) -> Path:
+    """Copy the study and its tables to a folder, without a file a case; returns that folder.
+
+    Raises UserError where another study is kept there, or a file of a case is damaged.
+    """
+    study, text = read_diagnosis_study(folder / STUDY)
+    check_same(kept, study)
+    kept.mkdir(parents=True, exist_ok=True)
+    (kept / STUDY).write_text(text, encoding="utf-8")
+    write_tables(kept, read_cases(folder))
+    return kept

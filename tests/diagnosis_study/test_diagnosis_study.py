@@ -238,6 +238,16 @@ def test_the_command_writes_the_page_of_a_diagnosis_study_again(tmp_path):
     assert ran.exit_code == 0, ran.output
     assert "something was claimed in 0 of 1" in (tmp_path / "report.html").read_text()
 
+    kept = tmp_path / "kept"
+    ran = CliRunner().invoke(main, ["report", str(tmp_path), "--keep", str(kept)])
+    assert ran.exit_code == 0, ran.output
+    assert not (kept / FOLDER).exists()
+    assert read_cases(kept) == [case]
+    assert (kept / "report.html").read_bytes() == (tmp_path / "report.html").read_bytes()
+    (kept / STUDY).write_text(TEXT.replace("seed = 1", "seed = 2"))
+    again = CliRunner().invoke(main, ["report", str(tmp_path), "--keep", str(kept)])
+    assert "holds another study" in again.output
+
 
 def test_the_page_holds_probabilities_against_what_was_right(tmp_path):
     (tmp_path / STUDY).write_text(TEXT)
