@@ -22,7 +22,8 @@ FEWEST_KNOTS = 16
 
 SMOOTHER = 0.5
 """RMS error of a spline over that of straight lines, at samples left out, from which an input is smooth: noise alone
-makes it 1.1, corners more, and a sine of 40 samples a period 0.03. With a quarter and with one such are told alike."""
+makes it 1.1, steps 1.0, a triangle 0.7, sines of 10 and 40 samples a period 0.07 and 0.003; noise of 0.5 % of a sine of
+40 samples makes it 0.6. A quarter tells these alike; with one the triangle passes for smooth."""
 
 
 def read_only(values: Array) -> Array:

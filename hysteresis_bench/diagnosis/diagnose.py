@@ -16,12 +16,12 @@ from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
-from hysteresis_bench.diagnosis.preparation import prepare, with_held_out
+from hysteresis_bench.diagnosis.preparation import Prepared, prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
 from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
-from hysteresis_bench.diagnosis.search.search import search
+from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, MISFIT, NAMED
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.identifiability.combinations import listed
@@ -84,14 +84,12 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
             prepared, found = smooth, again
     on_step(Step(f"{law}: what lies between the samples"))
     if few_samples(found):
-        finer = prepared.without(with_finer_steps, BETWEEN)
-        again = search(finer, gather(finer.views), question)
+        finer, again = _anew(prepared.without(with_finer_steps, BETWEEN), question)
         if again.best.rmse < ALIKE * found.best.rmse:
             prepared, found = finer, again
     on_step(Step(f"{law}: the records' beginnings"))
     if (spare := only_in_beginnings(found)) is not None:
-        later = prepared.without(without_beginnings, _in_mid_loop(spare))
-        again = search(later, gather(later.views), question)
+        later, again = _anew(prepared.without(without_beginnings, _in_mid_loop(spare)), question)
         if again.best.rmse <= MISFIT * again.selection.floor:
             prepared, found = later, again
     on_step(Step(f"{law}: before and after"))
@@ -108,6 +106,10 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
             stages = settle_offset(prepared, found, question)
             left = remainder(stages.after, found.evidence)
     return conclude(dataset, question, prepared, found, stages, left, doubted)
+
+
+def _anew(ready: Prepared, question: Question) -> tuple[Prepared, Found]:
+    return ready, search(ready, gather(ready.views), question)
 
 
 def _in_mid_loop(spare: Sequence[str]) -> str:
