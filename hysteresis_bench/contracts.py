@@ -31,11 +31,11 @@ Acts: TypeAlias = Literal["law", "input", "output", "added"]
 Family: TypeAlias = Literal[
     "law",
     "curve of the input",
-    "linear dynamics before the law",
+    "dynamics before the law",
     "curve of the output",
     "added disturbance",
     "change with time, path or temperature",
-    "linear dynamics after the law",
+    "dynamics after the law",
 ]
 """Effects of one family do alike. Of those that act in one place, the earlier family stands further inside."""
 

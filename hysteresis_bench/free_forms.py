@@ -31,7 +31,7 @@ class FreeForm(Effect):
     """An effect that stands for its family as a whole, where no formula of it does as well. It is never a candidate by
     itself.
 
-    Its parameters with a null are coefficients, in which it is linear or nearly so.
+    Its parameters with a null are coefficients, in which it is linear or nearly so; the others say where it bends.
     """
 
     ranges: ClassVar[tuple[str, ...]] = ()

@@ -24,7 +24,7 @@ from hysteresis_bench.signals import INDEX, Signal
 Response = Callable[[Array], Array]
 """(samples,) -> (samples,): linear, the same at every time, at rest with its first sample, of unit gain at rest."""
 
-BEFORE, AFTER = "linear dynamics before the law", "linear dynamics after the law"
+BEFORE, AFTER = "dynamics before the law", "dynamics after the law"
 EXACT = 1e-11
 """Share of the trajectory's range at which the search ends."""
 ITERATIONS = 300

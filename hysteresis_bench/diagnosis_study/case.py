@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +12,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.contracts import DrivenRig, Rig
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.experiments.settled import Tied, ties_after
+from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.certainty import Certainty
@@ -41,7 +42,8 @@ class Case:
     named : hidden effects that were claimed by name;  tied : claimed only as tied with another
     missed : hidden and neither;  extra : claimed without being hidden
     sure : probabilities of the claims, in their order, "-" where none is told
-    family : those of the missed for which the free form of their family was claimed, which stands under extra
+    family : those of the missed for which a free form of their family was claimed, or tied with a claimed one, which
+        stands under extra
     before, after : RMSE held out, over the noise (an estimate where the rig does not tell);  fresh : the same, after,
         on records that were neither fitted nor held out, without what is imperfect about these
     unfitted : fitted RMSE of the bare model over the noise
@@ -113,7 +115,6 @@ def run_case(ticket: CaseTicket) -> Case:
     }
     claimed = [name for name in found.effects if name != registry.RECORD_OFFSET]
     named, tied, missed, extra = compared(truth, claimed, rivals)
-    families = {one.effect: one.family for one in found.families}
     noise = _noise(seen, found.floor)
     before, after = (stage.held_out or stage.fitted for stage in (found.before, found.after))
     fresh = None
@@ -135,7 +136,7 @@ def run_case(ticket: CaseTicket) -> Case:
         missed=" ".join(missed),
         extra=" ".join(extra),
         sure=" ".join(_told(found.certainty.get(name)) for name in claimed),
-        family=" ".join(by_family(missed, [families[name] for name in extra if name in families])),
+        family=" ".join(by_family(missed, [_families({name, *rivals[name]}) for name in extra])),
         ties=" ".join("~".join(tied.names) for tied in ties),
         told=" ".join("-" if tied.probability is None else f"{tied.probability:.3f}" for tied in ties),
         settled=" ".join(outcome(tied, truth) for tied in ties),
@@ -198,17 +199,24 @@ def compared(
     return named, tied, missed, left
 
 
-def by_family(missed: Sequence[str], families: Sequence[str]) -> list[str]:
-    """Which of the missed effects have their family among the claimed ones; each claim counts once."""
+def by_family(missed: Sequence[str], families: Sequence[Collection[str]]) -> list[str]:
+    """Which of the missed effects have their family among the claimed ones; each claim counts once.
+
+    families : of each claim, its own and those of what is tied with it
+    """
     left, found = list(families), []
     for entry in missed:
-        own = next(
-            (registry.effect(name).family for name in entry.split("|") if registry.effect(name).family in left), ""
-        )
-        if own:
-            left.remove(own)
+        own = {registry.effect(name).family for name in entry.split("|")}
+        claim = next((each for each in left if own & {*each}), None)
+        if claim is not None:
+            left.remove(claim)
             found.append(entry)
     return found
+
+
+def _families(names: Collection[str]) -> set[str]:
+    """Of the free forms among effects."""
+    return set(forms_of(tuple(names)).values())
 
 
 def hidden_in(bench: BenchSpec, dataset: Dataset) -> tuple[str, ...]:

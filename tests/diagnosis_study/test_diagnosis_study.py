@@ -88,9 +88,10 @@ def test_the_confusion_matrix_counts_cases():
 
 def test_a_family_counts_for_one_hidden_effect_of_it():
     time, curve = "change with time, path or temperature", "curve of the input"
-    assert by_family(["drift"], [time]) == ["drift"]
-    assert by_family(["drift", "fatigue"], [time, curve]) == ["drift"]
-    assert by_family(["saturation"], [curve]) == []
+    assert by_family(["drift"], [{time}]) == ["drift"]
+    assert by_family(["drift", "fatigue"], [{time}, {curve}]) == ["drift"]
+    assert by_family(["drift", "fatigue"], [{curve, time}, {time}]) == ["drift", "fatigue"]
+    assert by_family(["saturation"], [{curve}, set()]) == []
     case = Case("a", "m", 0, "done", hidden="drift", missed="drift", extra="zero-with-time", family="drift")
     assert (case.right, case.right_by_family) == (False, True)
     assert not replace(case, extra="zero-with-time bias").right_by_family

@@ -82,6 +82,8 @@ EFFECTS = {
     },
     "gain-with-path": {"longest": 40.0, **{f"gain{k}": -0.05 * k for k in range(1, 7)}},
     "input-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
+    "lag-curve-after": {"bend": 3.0, "falling_fast": 0.05, "falling": 0.02, "rising": 0.01, "rising_fast": 0.0},
+    "lag-curve-before": {"bend": 3.0, "falling_fast": 0.01, "falling": 0.02, "rising": 0.0, "rising_fast": 0.05},
     "lags-after": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "lags-before": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "leakage-curve": {"largest": 3.0, **{f"current{k}": 0.5 / k for k in range(1, 8)}},

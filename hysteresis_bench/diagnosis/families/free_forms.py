@@ -24,9 +24,10 @@ def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
         if better is None:
             break
         current = _with_names(selection, better, names)
-    if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
-        current = named
+    # what even curves do not explain is the law's, and they its stand-ins
+    current = named if current.rmse > MISFIT * selection.floor else _named_again(selection, current, names)
     selection.candidates = (*names, *(form for form in forms if form in current.names))
+    selection.forms = forms
     return current
 
 
@@ -55,11 +56,26 @@ def _with_names(selection: Selection, current: Hypothesis, names: tuple[str, ...
     return current
 
 
+def _named_again(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
+    """With a name in the place of a free form of its family, where it does as well now: what took its place first may
+    have been the wrong formula's fault beside it."""
+    effect = selection.fitter.stack.effect
+    for form in [name for name in selection.adopted(current) if name not in names]:
+        own = [name for name in names if effect(name).family == effect(form).family and name not in current.names]
+        smaller = selection.without(current, form)
+        tried = selection.workers.map([("extended", smaller, name, current.values) for name in own])
+        found = [system for system in tried if not _clearly(selection, system, current)]
+        if found:
+            current = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
+    return current
+
+
 def _in_place(selection: Selection, current: Hypothesis, forms: list[str]) -> list[Hypothesis]:
     """Every free form in the place of each name of its family, whose part it may not take over from beside it, such as
-    a hum's fundamental from its overtone."""
+    a hum's fundamental from its overtone; or of a name that is tied with one of its family."""
     effect = selection.fitter.stack.effect
-    pairs = [(n, f) for n in selection.adopted(current) for f in forms if effect(n).family == effect(f).family]
+    alike = {name: (name, *selection.rivals(current, name)) for name in selection.adopted(current)}
+    pairs = [(n, f) for n in alike for f in forms if effect(f).family in {effect(one).family for one in alike[n]}]
     smaller = {name: selection.without(current, name) for name, _ in pairs}
     return selection.workers.map([("extended", smaller[name], form, current.values) for name, form in pairs])
 

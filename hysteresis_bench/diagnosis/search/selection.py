@@ -74,12 +74,14 @@ class Selection:
     """The search's state and result.
 
     floor : RMS that a perfect model leaves;  candidates : names that can be tried
+    forms : free forms that can stand in the place of an adopted one
     """
 
     fitter: Fitter
     workers: Workers[Hypothesis]
     floor: float
     candidates: tuple[str, ...]
+    forms: tuple[str, ...] = ()
     rounds: list[Round] = field(default_factory=list)
     known: dict[frozenset[str], Hypothesis] = field(default_factory=dict)
     sought: set[frozenset[str]] = field(default_factory=set)
@@ -105,13 +107,13 @@ class Selection:
         return tuple(sorted(hypothesis.names & set(self.candidates)))
 
     def alternatives(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
-        """The systems with another effect in the place of an adopted one."""
-        return self._sought(self._extensions(self.without(current, name), current))
+        """The systems with another effect in the place of an adopted one; of a free form, also another free form."""
+        more = self.forms if name in self.forms else ()
+        return self._sought(self._extensions(self.without(current, name), current, more))
 
     def rivals(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
         """What would do as well in the place of an adopted effect."""
-        others = self.alternatives(current, name)
-        return {rival: other for rival, other in others.items() if self.tied(current, other)}
+        return {rival: other for rival, other in self.alternatives(current, name).items() if self.tied(current, other)}
 
     def without(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
         return self._reduced(hypothesis, [name])[0]
@@ -240,17 +242,17 @@ class Selection:
             if best is not current and best.cv_rmse < ALIKE * current.cv_rmse:
                 clear = advantage(best.left_out, current.left_out, self.fitter.blocks) > CLEAR
                 more = len(best.values) - len(current.values)
-                least = NAMED if more > 0 else 0.0
-                better = (clear or more < 0) and self.share(current, best) > least
+                better = (clear or more < 0) and self.share(current, best) > (NAMED if more > 0 else 0.0)
                 if better or self.tied(current, best):
                     return self.workers.map([("refitted", best)])[0]
         return None
 
-    def _extensions(self, hypothesis: Hypothesis, instead_of: Hypothesis | None = None) -> dict[str, Hypothesis]:
-        """instead_of : a system with one effect more, in the place of which others are tried"""
-        names = [
-            n for n in self.candidates if n not in hypothesis.names and (not instead_of or n not in instead_of.names)
-        ]
+    def _extensions(
+        self, hypothesis: Hypothesis, instead_of: Hypothesis | None = None, more: Sequence[str] = ()
+    ) -> dict[str, Hypothesis]:
+        """instead_of : a system with one effect more, in the place of which others are tried;  more : candidates"""
+        taken = hypothesis.names | (instead_of.names if instead_of else frozenset())
+        names = [name for name in dict.fromkeys((*self.candidates, *more)) if name not in taken]
         other = instead_of.values if instead_of else None
         keys = [hypothesis.names | {name} for name in names]
         return dict(zip(names, self._ask([("extended", hypothesis, name, other) for name in names], keys), strict=True))
@@ -267,11 +269,9 @@ class Selection:
             and hypotheses[name].names not in self.sought
         ]
         again = self.workers.map([("refitted", hypotheses[name]) for name in close])
-        for name, hypothesis in zip(close, again, strict=True):
-            self.known[hypothesis.names] = hypothesis
-            self.sought.add(hypothesis.names)
-            hypotheses = {**hypotheses, name: hypothesis}
-        return hypotheses
+        self.known |= {hypothesis.names: hypothesis for hypothesis in again}
+        self.sought |= {hypothesis.names for hypothesis in again}
+        return {**hypotheses, **dict(zip(close, again, strict=True))}
 
     def _reduced(self, current: Hypothesis, names: Sequence[str]) -> list[Hypothesis]:
         """Without one effect each. Fitted from here even where it is known: from here it may fit better than from
@@ -288,9 +288,9 @@ class Selection:
         if hypothesis.names in self.known and self.known[hypothesis.names].rmse * BETTER < hypothesis.rmse:
             return
         self.known[hypothesis.names] = hypothesis
-        for names in [names for names in self.known if names > hypothesis.names]:
-            if self.known[names].rmse * BETTER > hypothesis.rmse:
-                del self.known[names]
+        larger = [names for names in self.known if names > hypothesis.names]
+        for names in [names for names in larger if self.known[names].rmse * BETTER > hypothesis.rmse]:
+            del self.known[names]
 
     def _ask(self, questions: Sequence[tuple[Any, ...]], names: Sequence[frozenset[str]]) -> list[Hypothesis]:
         """Only what is not known yet."""

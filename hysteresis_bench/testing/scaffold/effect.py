@@ -36,7 +36,7 @@ class Example(Effect):
     """
 
     acts = "output"
-    family = "linear dynamics after the law"
+    family = "dynamics after the law"
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_leaking,)
     parameters = (Parameter("rate", 0.0, 1.0, "1/{time}", null=0.0, meaning="1 / the amplifier's time constant"),)
 

@@ -34,6 +34,12 @@ def largest_input(records: Sequence[Record]) -> float:
     return max(float(np.max(np.abs(record.input))) for record in records)
 
 
+def fastest(records: Sequence[Record]) -> float:
+    """Fastest movement of the input, unit of input over unit of time: all but a hundredth of the steps are slower."""
+    rates = [np.abs(np.diff(record.input)) / np.diff(record.time) for record in records]
+    return max(float(np.quantile(rate, 0.99)) for rate in rates)
+
+
 def duration(record: Record) -> float:
     return float(record.time[-1] - record.time[0])
 

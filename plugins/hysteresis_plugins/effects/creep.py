@@ -69,7 +69,7 @@ class Creep(Effect):
     """
 
     acts = "output"
-    family = "linear dynamics after the law"
+    family = "dynamics after the law"
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "drift": "creep that is slow against the record is a straight line in time",

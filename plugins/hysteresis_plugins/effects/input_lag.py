@@ -49,7 +49,7 @@ class InputLag(Effect):
     """
 
     acts = "input"
-    family = "linear dynamics before the law"
+    family = "dynamics before the law"
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "transport-delay": (

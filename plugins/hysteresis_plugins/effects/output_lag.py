@@ -47,7 +47,7 @@ class OutputLag(Effect):
     """
 
     acts = "output"
-    family = "linear dynamics after the law"
+    family = "dynamics after the law"
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "creep": "creep with one relaxation and nearly the whole response late is a lag",

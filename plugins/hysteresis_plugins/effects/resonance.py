@@ -75,7 +75,7 @@ class Resonance(Effect):
     """
 
     acts = "output"
-    family = "linear dynamics after the law"
+    family = "dynamics after the law"
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "transport-delay": "far below its natural frequency a damped resonance only delays",

@@ -58,7 +58,7 @@ class TransportDelay(Effect):
     """
 
     acts = "output"
-    family = "linear dynamics after the law"
+    family = "dynamics after the law"
     affine = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_shifted, _between)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_all_pass, _three_ways)

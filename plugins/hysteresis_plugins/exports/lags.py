@@ -8,7 +8,7 @@ from typing import Any
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_plugins.effects.free._lags import LAGS, constants
+from hysteresis_plugins.effects.free.lags._spectrum import LAGS, constants
 from hysteresis_plugins.exports.lag import STATE, lagged
 
 

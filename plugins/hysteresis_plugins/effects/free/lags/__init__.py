@@ -1,0 +1,1 @@
+"""The free forms of dynamics before and after the law."""
