@@ -37,6 +37,9 @@ class FreeForm(Effect):
     ranges: ClassVar[tuple[str, ...]] = ()
     """Parameters that tell the range of the data: a diagnosis fixes them in the middle of their box."""
 
+    limits: ClassVar[tuple[str, ...]] = ()
+    """Parameters whose box may end in a limiting curve, such as one without a bend: at its edge nothing is amiss."""
+
     @abstractmethod
     def curve(self, p: Any) -> Curve:
         """What was found, of one set of parameters: p as in Effect.apply, a number each."""

@@ -67,9 +67,8 @@ def dynamics_of(fitted: FittedModel) -> Dynamics | None:
     """What a fitted model's effects do that are linear dynamics; None where there are none, or where it has no time."""
     if fitted.units.get("time") == INDEX:
         return None
-    kept = {
-        family: tuple(pair for pair in fitted.system.effects if pair[1].family == family) for family in (BEFORE, AFTER)
-    }
+    linear = [pair for pair in fitted.system.effects if pair[1].affine]
+    kept = {family: tuple(pair for pair in linear if pair[1].family == family) for family in (BEFORE, AFTER)}
     names = tuple(name for pairs in kept.values() for name, _ in pairs)
     before, after = (part_of(fitted, Through(), pairs) for pairs in kept.values())
     return Dynamics(before, after, names) if names else None

@@ -34,6 +34,7 @@ EFFECTS = {
     "bias": {"offset": 0.2},
     "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
     "input-lag": {"time_constant": 0.004},
+    "lag-curve-after": {"bend": 1.0, "falling_fast": 0.01, "falling": 0.01, "rising": 0.005, "rising_fast": 0.005},
     "output-lag": {"time_constant": 0.005},
     "resonance": {"period": 0.01, "damping": 0.1},
     "saturation": {"inverse_level": 0.1, "sharpness": 2.0},
@@ -89,13 +90,14 @@ def test_which_inverse_is_taken():
 
 
 def test_preparation_limit_and_what_is_left_out():
-    model = fitted("bouc-wen", BOUC_WEN, ("input-lag", "drift"))
+    model = fitted("bouc-wen", BOUC_WEN, ("input-lag", "lag-curve-after", "drift"))
     model = replace(model, preparation=Preparation(input_offset=0.5, flip=True))
     driven = drive(model, forward_of(model), TIME, WANTED, limit=1.0)
     assert driven.undone == ("input-lag",)
-    assert driven.ignored == ("drift",)
+    assert driven.ignored == ("lag-curve-after", "drift")
     assert np.max(np.abs(driven.input)) <= 1.0
     assert driven.cut.any()
+    model = fitted("bouc-wen", BOUC_WEN, ("input-lag", "drift"))
     free = drive(model, forward_of(model), TIME, WANTED)
     assert np.max(np.abs(free.reached - WANTED - 0.1 * TIME)) < 1e-2
 

@@ -224,14 +224,14 @@ class Fitter:
                 p.name
                 for p, x in zip(problem.space.parameters, point, strict=True)
                 if _at_bound(replace(p, null=0.0) if p.name in problem.system.model.linear else p, x)
-                and p.name not in self._shapes(names)
+                and p.name not in self._limits(names)
             ),
         )
 
-    def _shapes(self, names: Collection[str]) -> set[str]:
-        """What tells where the curves of free forms bend: at the edge of its box one is without a bend."""
+    def _limits(self, names: Collection[str]) -> set[str]:
+        """Parameters of free forms that may lie at an edge of their box."""
         forms = {name: effect for name in names if isinstance(effect := self.stack.effect(name), FreeForm)}
-        return {f"{name}.{p.name}" for name, form in forms.items() for p in form.parameters if p.null is None}
+        return {f"{name}.{parameter}" for name, form in forms.items() for parameter in form.limits}
 
 
 def _at_bound(parameter: Parameter, x: float) -> bool:

@@ -17,6 +17,9 @@ from hysteresis_plugins.effects.free._spline import POINTS
 CONSTANTS = ("falling_fast", "falling", "rising", "rising_fast")
 """Time constants, in the order of the kernel."""
 
+LIMITS = ("bend", "falling_fast", "rising_fast")
+"""Without a bend within the rates of the data, or with a rate that is never passed."""
+
 SLOWEST = 0.02
 """Of the fastest movement, the slowest at which the curve may bend."""
 

@@ -11,7 +11,7 @@ from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import input_span, output_span, unresolved
-from hysteresis_plugins.effects.free.lags._rate import behind, box, curve, parameters
+from hysteresis_plugins.effects.free.lags._rate import LIMITS, behind, box, curve, parameters
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,7 @@ class LagCurveAfter(FreeForm):
 
     acts = "output"
     family = "dynamics after the law"
+    limits = LIMITS
     parameters = parameters("{output}")
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

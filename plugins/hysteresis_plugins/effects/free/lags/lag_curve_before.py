@@ -13,7 +13,7 @@ from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import unresolved
-from hysteresis_plugins.effects.free.lags._rate import behind, box, constants, curve, parameters
+from hysteresis_plugins.effects.free.lags._rate import LIMITS, behind, box, constants, curve, parameters
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,7 @@ class LagCurveBefore(FreeForm):
             "straight line"
         ),
     }
+    limits = LIMITS
     parameters = parameters("{input}")
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
