@@ -73,8 +73,8 @@ class System:
     def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
         simulated = record.at_samples(self.simulate(record.signal, values))
-        for _, effect in self.effects:
-            simulated = effect.adjust(simulated, record)
+        for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
+            simulated = effect.adjust(simulated, record, p)
         return simulated
 
     def offsets(self, record: Record, values: Array) -> list[Array]:
@@ -83,7 +83,7 @@ class System:
         found = []
         for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
             found.append(effect.offset(simulated, record, p))
-            simulated = effect.adjust(simulated, record)
+            simulated = effect.adjust(simulated, record, p)
         return found
 
     @cached_property

@@ -140,6 +140,8 @@ class Effect(ABC):
     """Whether the output is an affine function of what is wrapped: the parameters in which that is affine stay so."""
     linear: ClassVar[tuple[str, ...]] = ()
     """Parameters in which the output is affine, jointly with what is wrapped: amplitudes of what is merely added."""
+    estimates: ClassVar[int] = 0
+    """How many values it estimates anew on every record, beside its parameters."""
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
     """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
     other_forms: ClassVar[tuple[HiddenForm, ...]] = ()
@@ -157,7 +159,7 @@ class Effect(ABC):
         """Why the effect cannot be fitted to these records, or an empty string."""
         return ""
 
-    def adjust(self, simulated: Array, record: Record) -> Array:
+    def adjust(self, simulated: Array, record: Record, p: Any = None) -> Array:
         """The output with what the effect estimates anew on every record; simulated : (samples, swarm)."""
         return simulated
 

@@ -10,6 +10,7 @@ from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.remainder import remainder
@@ -75,7 +76,8 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
     on_step(Step(f"{law}: the noise of the input"))
-    if evidence.noise.input_heard:
+    # the floor knows of the input's noise: what is left far above it, no smoother input explains
+    if evidence.noise.input_heard and found.best.rmse <= WRONG * found.selection.floor:
         smooth = prepared.without(with_smooth_inputs, SMOOTHED)
         quiet = gather(smooth.views)
         # what is left of an input that is rough by itself passes for noise again

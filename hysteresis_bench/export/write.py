@@ -62,7 +62,8 @@ def notes(chain: Chain) -> list[str]:
 
 def _left_out(chain: Chain) -> list[str]:
     """What the inverse does not undo, and why."""
-    dynamics = {name for name, effect in chain.fitted.system.effects if effect.family in (BEFORE, AFTER)}
+    linear = [(name, effect) for name, effect in chain.fitted.system.effects if effect.affine]
+    dynamics = {name for name, effect in linear if effect.family in (BEFORE, AFTER)}
     own = chain.law.part.not_undone
     late = [*([own] if own else []), *(name for name in chain.ignored or () if name in dynamics)]
     rest = [name for name in chain.ignored or () if name not in dynamics]

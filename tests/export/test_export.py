@@ -81,6 +81,7 @@ EFFECTS = {
         "cosine_of_2": 0.1, "sine_of_2": -0.2, "cosine_of_3": 0.05, "sine_of_3": 0.1,
     },
     "gain-with-path": {"longest": 40.0, **{f"gain{k}": -0.05 * k for k in range(1, 7)}},
+    "gain-with-time": {"duration": 1.6, **{f"gain{k}": -0.05 * k for k in range(1, 7)}},
     "input-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
     "lag-curve-after": {"bend": 3.0, "falling_fast": 0.05, "falling": 0.02, "rising": 0.01, "rising_fast": 0.0},
     "lag-curve-before": {"bend": 3.0, "falling_fast": 0.01, "falling": 0.02, "rising": 0.0, "rising_fast": 0.05},
@@ -89,6 +90,7 @@ EFFECTS = {
     "leakage-curve": {"largest": 3.0, **{f"current{k}": 0.5 / k for k in range(1, 8)}},
     "output-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
     "play-bank": {"reach": 1.5, **{f"weight{k}": 0.05 for k in range(1, 11)}},
+    "record-wave": {"duration": 1.6, "frequency": 7.0, **{f"amplitude{k}": 0.1 * k for k in range(5)}},
     "zero-with-time": {"duration": 1.6, **{f"zero{k}": 0.1 * k for k in range(1, 7)}},
 }  # fmt: skip
 SETTINGS = {"record-offset": {"default": 0.25}}

@@ -10,6 +10,7 @@ from hysteresis_bench.kernels.effects.natural_spline import (
     natural_splines,
     scale_by_spline,
 )
+from hysteresis_bench.kernels.effects.own_phase import add_at_own_phase
 from hysteresis_bench.kernels.effects.polynomial_current import ORDERS, collect
 from hysteresis_bench.kernels.effects.wave import add_wave
 
@@ -102,3 +103,20 @@ def test_each_is_off_to_the_last_bit_at_its_null():
     collect(found, TIME, Y, one, off)
     assert np.array_equal(found, Y)
     assert np.all(values_of(Y, curves) == 0.0)
+
+
+def test_a_hum_at_the_phase_that_the_record_shows():
+    duration, frequency, history = drawn(3.0, 4.5), drawn(5.0, 12.0), 60
+    knots, since = tuple(k / 4.0 for k in range(5)), TIME - TIME[0]
+    a = RNG.uniform(0.2, 0.8, (5, SWARM))
+    phase = RNG.uniform(0.0, 2.0 * np.pi, SWARM)
+    for j in range(SWARM):
+        swell = plain(since, knots, True, 0.0, duration[j], a[:, j])
+        hum = swell * np.cos(2.0 * np.pi * frequency[j] * TIME + phase[j])
+        found = Y[:, j : j + 1].copy()
+        one = natural_splines(np.zeros(1), duration[j : j + 1], knots=knots, ordinates=a[:, j : j + 1], held=True)
+        add_at_own_phase(found, TIME, (Y[:, j] + hum + 5.0)[history:], frequency[j : j + 1], one)
+        assert np.max(np.abs(found[:, 0] - Y[:, j] - hum)) < 0.1 * np.max(np.abs(hum))
+    still, zero = Y.copy(), natural_splines(np.zeros(SWARM), duration, knots=knots, ordinates=0.0 * a, held=True)
+    add_at_own_phase(still, TIME, Y[history:, 0] + 1.0, frequency, zero)
+    assert np.array_equal(still, Y)

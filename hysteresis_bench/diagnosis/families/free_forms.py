@@ -17,17 +17,18 @@ def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
     """The system with free forms where names do not do as well; `selection` counts those as candidates from now on."""
     names = selection.candidates
     forms = selection.fitter.stack.free_forms()
-    selection.candidates = (*names, *forms)
+    selection.candidates, selection.forms = (*names, *forms), forms
     current = named
     for _ in range(MOST):
         better = _freed(selection, current, [form for form in forms if form not in current.names])
         if better is None:
             break
         current = _with_names(selection, better, names)
-    # what even curves do not explain is the law's, and they its stand-ins
-    current = named if current.rmse > MISFIT * selection.floor else _named_again(selection, current, names)
+    if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
+        current = named
+    elif current is not named:  # what was named beside the wrong formula may be its fault
+        current = selection.settled(selection.exchanged(current) or current)
     selection.candidates = (*names, *(form for form in forms if form in current.names))
-    selection.forms = forms
     return current
 
 
@@ -53,20 +54,6 @@ def _with_names(selection: Selection, current: Hypothesis, names: tuple[str, ...
         if not found:
             break
         current = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
-    return current
-
-
-def _named_again(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
-    """With a name in the place of a free form of its family, where it does as well now: what took its place first may
-    have been the wrong formula's fault beside it."""
-    effect = selection.fitter.stack.effect
-    for form in [name for name in selection.adopted(current) if name not in names]:
-        own = [name for name in names if effect(name).family == effect(form).family and name not in current.names]
-        smaller = selection.without(current, form)
-        tried = selection.workers.map([("extended", smaller, name, current.values) for name in own])
-        found = [system for system in tried if not _clearly(selection, system, current)]
-        if found:
-            current = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
     return current
 
 

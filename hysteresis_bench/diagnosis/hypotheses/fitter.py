@@ -140,13 +140,15 @@ class Fitter:
         """Is the larger one better than chance? Not where what it has more is no wider than the input's noise."""
         if any(self._drowned(larger, name) for name in larger.names - smaller.names):
             return NestedTest(0.0, 1.0, 0)
-        known, all_ = (len(self.stack.problem(hypothesis.names).space.names) for hypothesis in (smaller, larger))
-        offsets = len(self.stack.records)
-        count = [offsets if registry.RECORD_OFFSET in hypothesis.names else 0 for hypothesis in (smaller, larger)]
+        known, all_ = (self._fitted_values(hypothesis) for hypothesis in (smaller, larger))
         nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
-        added = all_ - known + count[1] - count[0]
         less, more = (split(hypothesis.residuals, self.stack.records) for hypothesis in (smaller, larger))
-        return nested_test(less, more, max(added, 1) + (0 if nuisance else SEARCHED), all_ + count[1])
+        return nested_test(less, more, max(all_ - known, 1) + (0 if nuisance else SEARCHED), all_)
+
+    def _fitted_values(self, hypothesis: Hypothesis) -> int:
+        """Parameters, and what effects estimate on every record."""
+        own = sum(self.stack.effect(name).estimates for name in hypothesis.names)
+        return len(self.stack.problem(hypothesis.names).space.names) + own * len(self.stack.records)
 
     @cached_property
     def _input_noise(self) -> float:

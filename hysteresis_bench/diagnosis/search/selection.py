@@ -95,9 +95,9 @@ class Selection:
             found = self._round(current)
             self.rounds.append(found)
             if found.chosen and len(self.adopted(current)) < MOST:
-                better = self._settle(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
+                better = self.settled(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
             else:
-                better = self._exchanged(current) or self._paired(found) or current
+                better = self.exchanged(current) or self._paired(found) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
                 return self._named(current)
             current = better
@@ -162,9 +162,10 @@ class Selection:
         return similar and (abs(gain) < CLEAR or len(better.values) > len(worse.values))
 
     def simplest(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
-        """Of the best and those tied with it, those with fewest parameters (what a model offers inside its state
-        equation only where nothing around it does as well); of these, of the best and those tied with it, the
-        alphabetically first. Where the model is wrong, none that predicts records left out much worse."""
+        """Of the best and those tied with it, those with fewest parameters (what is estimated anew on every record, or
+        offered by a model inside its state equation, only where nothing else does as well); of these, of the best and
+        those tied with it, the alphabetically first. Where the model is wrong, none that predicts records left out
+        much worse."""
         for key in (self._plainness, lambda hypothesis: sorted(hypothesis.names)):
             best = min(hypotheses, key=lambda hypothesis: hypothesis.cv_rmse)
             alike = [one for one in hypotheses if one is best or self.tied(best, one)]
@@ -176,6 +177,7 @@ class Selection:
 
     def _plainness(self, hypothesis: Hypothesis) -> list[int]:
         return [
+            sum(self.fitter.stack.effect(form).estimates for form in self.forms if form in hypothesis.names),
             any("." in name for name in hypothesis.at_bound),  # an effect's own, not the law's
             len(hypothesis.values),
             len(hypothesis.names & set(self.fitter.stack.model.offers)),
@@ -188,10 +190,8 @@ class Selection:
         tests = {name: self.fitter.test(current, hypothesis) for name, hypothesis in hypotheses.items()}
         gains = {name: advantage(t.left_out, current.left_out, self.fitter.blocks) for name, t in hypotheses.items()}
         passed = {name: t for name, t in hypotheses.items() if self.needed(current, t, len(self.candidates))}
-        chosen = ""
-        if passed:
-            winner = self.simplest(list(passed.values()))
-            chosen = next(name for name, hypothesis in passed.items() if hypothesis is winner)
+        winner = self.simplest(list(passed.values())) if passed else None
+        chosen = next((name for name, hypothesis in passed.items() if hypothesis is winner), "")
         return Round(current, hypotheses, tests, gains, chosen)
 
     def _paired(self, found: Round) -> Hypothesis | None:
@@ -205,14 +205,14 @@ class Selection:
         best = min(pairs, key=lambda hypothesis: hypothesis.cv_rmse, default=current)
         if not self.needed(current, best, count * (count - 1) // 2) or self.share(current, best) < NAMED:
             return None
-        return self._settle(self.workers.map([("refitted", best)])[0])
+        return self.settled(self.workers.map([("refitted", best)])[0])
 
-    def _settle(self, current: Hypothesis) -> Hypothesis:
+    def settled(self, current: Hypothesis) -> Hypothesis:
         """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
         for _ in range(2 * MOST):
             better = self._dropped(current)
             if better is None and current.rmse > MATTERS * self.floor:
-                better = self._exchanged(current)
+                better = self.exchanged(current)
             if better is None:
                 return current
             current = better
@@ -225,7 +225,7 @@ class Selection:
             least = min(smaller, key=lambda hypothesis: self.share(hypothesis, current))
             if self.share(least, current) > NAMED:
                 break
-            current = self._exchanged(least) or least
+            current = self.exchanged(least) or least
         return current
 
     def _dropped(self, current: Hypothesis) -> Hypothesis | None:
@@ -236,7 +236,7 @@ class Selection:
         spare = [hypothesis for hypothesis in smaller if not self.needed(hypothesis, current)]
         return min(spare, key=lambda hypothesis: hypothesis.cv_rmse) if spare else None
 
-    def _exchanged(self, current: Hypothesis) -> Hypothesis | None:
+    def exchanged(self, current: Hypothesis) -> Hypothesis | None:
         for name in self.adopted(current):
             best = self.simplest([current, *self.alternatives(current, name).values()])
             if best is not current and best.cv_rmse < ALIKE * current.cv_rmse:

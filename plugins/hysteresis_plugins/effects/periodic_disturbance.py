@@ -136,7 +136,7 @@ class PeriodicDisturbance(Effect):
         found: list[dict[str, float]] = []
         while len(found) < PROPOSALS and grid.size and np.max(power) > 0.0:
             frequency = float(grid[np.argmax(power)])
-            found.append(_amplitudes(records, residuals, frequency))
+            found.append(amplitudes_at(records, residuals, frequency))
             power[np.abs(grid - frequency) < 2.0 * resolution] = -np.inf
         return found
 
@@ -152,7 +152,7 @@ def _without_drive(record: Record, residual: Array, drive: float) -> Array:
     return residual - drift_and_drive
 
 
-def _amplitudes(records: Sequence[Record], residuals: Sequence[Array], frequency: float) -> dict[str, float]:
+def amplitudes_at(records: Sequence[Record], residuals: Sequence[Array], frequency: float) -> dict[str, float]:
     """Least-squares amplitudes at one frequency, all records together, each with its own constant."""
     phase = 2.0 * np.pi * frequency * np.concatenate([record.time[record.scored] for record in records])
     owner = np.repeat(np.arange(len(records)), [residual.size for residual in residuals])

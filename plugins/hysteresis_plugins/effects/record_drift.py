@@ -27,13 +27,14 @@ class RecordDrift(Effect):
     acts = "added"
     family = "change with time, path or temperature"
     nuisance = True
+    estimates = 1
     affine = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal)
 
-    def adjust(self, simulated: Array, record: Record) -> Array:
+    def adjust(self, simulated: Array, record: Record, p: Any = None) -> Array:
         if record.output is None or not record.timed:
             return simulated
         scored = record.time[record.scored]

@@ -25,6 +25,7 @@ class RecordOffset(Effect):
     acts = "added"
     family = "change with time, path or temperature"
     nuisance = True
+    estimates = 1
     affine = True
     parameters: ClassVar[tuple[Parameter, ...]] = ()
 
@@ -33,7 +34,7 @@ class RecordOffset(Effect):
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         return inner(signal)
 
-    def adjust(self, simulated: Array, record: Record) -> Array:
+    def adjust(self, simulated: Array, record: Record, p: Any = None) -> Array:
         return simulated + self.offset(simulated, record, None)
 
     def offset(self, simulated: Array, record: Record, p: Any) -> Array:
