@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # before numpy: threads only wait for each other on small matrices
+
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # each of the processes that tests start would compile all modules anew
 
 import numpy as np
 import pytest
 
 from hysteresis_bench import registry
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space
-from hysteresis_bench.signals import Record
+from hysteresis_bench.signals import Record, read_only
 
 ROOT = Path(__file__).parents[1]
 PLUGINS = ROOT / "tests" / "test_plugins"
@@ -36,6 +40,16 @@ def record(samples: int = 40, name: str = "sine", a: float = 1.0, b: float = 0.5
     time = np.linspace(0.0, 1.0, samples)
     drive = np.sin(2 * np.pi * time)
     return Record(time, drive, a * drive + b * drive**3, name=name)
+
+
+def as_models_call(kernel: Callable[..., Array], *given: int) -> Callable[..., Array]:
+    """The kernel with these of its arguments read-only and side by side in memory, as those of a signal are: for any
+    other kind of array it is compiled once more, which takes up to ten seconds."""
+
+    def called(*arguments: object) -> Array:
+        return kernel(*(read_only(one) if place in given else one for place, one in enumerate(arguments)))
+
+    return called
 
 
 @pytest.fixture

@@ -15,6 +15,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.bounded_steps import bounded_steps
+from hysteresis_bench.kernels.squares import differences_into
 
 STEP = 1e-6
 """Forward difference, in the unit box."""
@@ -37,11 +38,11 @@ Merit = Callable[[Array, Array], Array]
 def jacobian(residuals: Residuals, points: Array, chains: Array) -> tuple[Array, Array]:
     """Residuals (samples, swarm) and their derivatives (samples, swarm, dimension) by the unit box's coordinates."""
     left, differences, steps = _differences(residuals, points, chains)
-    return left, differences.transpose(1, 0, 2) / steps.T
+    return left.T, differences.transpose(1, 0, 2) / steps.T
 
 
 def _differences(residuals: Residuals, points: Array, chains: Array) -> tuple[Array, Array, Array]:
-    """Residuals (samples, swarm), their forward differences (swarm, samples, dimension), steps (dimension, swarm)."""
+    """Residuals (swarm, samples), their forward differences (swarm, samples, dimension), steps (dimension, swarm)."""
     dimension, swarm = points.shape
     steps = np.where(points > 0.5, -STEP, STEP)
     moved = np.repeat(points[:, :, None], dimension + 1, axis=2)
@@ -49,9 +50,10 @@ def _differences(residuals: Residuals, points: Array, chains: Array) -> tuple[Ar
         moved[row, :, row + 1] += steps[row]
     found = residuals(moved.reshape(dimension, -1), np.repeat(chains, dimension + 1))
     found = found.reshape(-1, swarm, dimension + 1)
-    differences = np.empty((swarm, found.shape[0], dimension))
-    np.subtract(found[:, :, 1:], found[:, :, :1], out=differences.transpose(1, 0, 2))
-    return found[:, :, 0], differences, steps
+    left = np.empty((swarm, found.shape[0]))
+    differences = np.empty((*left.shape, dimension))
+    differences_into(left, differences, found)
+    return left, differences, steps
 
 
 def descend(
@@ -92,7 +94,7 @@ def _normal(residuals: Residuals, points: Array, chains: Array) -> tuple[Array, 
         left, differences, steps = _differences(residuals, points[:, group], chains[group])
         columns = differences.transpose(0, 2, 1)
         matrices.append(columns @ differences / (steps.T[:, :, None] * steps.T[:, None, :]))
-        descents.append(-(columns @ np.ascontiguousarray(left.T)[..., None])[..., 0] / steps.T)
+        descents.append(-(columns @ left[..., None])[..., 0] / steps.T)
     return np.concatenate(matrices), np.concatenate(descents)
 
 

@@ -1,4 +1,4 @@
-"""Errors of a swarm against one measured output, and the sum of their squares."""
+"""Errors of a swarm against one measured output, the sum of their squares, and how they differ between points."""
 
 from __future__ import annotations
 
@@ -34,6 +34,22 @@ def sum_of_squares(simulated: Array, measured: Array) -> Array:
             error = simulated[i, j] - measured[i]
             total[j] += error * error
     return total
+
+
+@njit(cache=True, error_model="numpy")
+def differences_into(first: Array, differences: Array, found: Array) -> None:
+    """Groups of columns parted: the first of each, and the others less it.
+
+    first : float64[groups, samples];  differences : float64[groups, samples, others]
+    found : float64[samples, groups, 1 + others]
+    """
+    groups, samples, others = differences.shape
+    for group in range(groups):
+        for i in range(samples):
+            base = found[i, group, 0]
+            first[group, i] = base
+            for j in range(others):
+                differences[group, i, j] = found[i, group, j + 1] - base
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})

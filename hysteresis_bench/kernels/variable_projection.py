@@ -14,6 +14,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.bounded_steps import bounded_steps
+from hysteresis_bench.kernels.squares import differences_into
 
 COLUMNS = 64
 """Of residuals held at once."""
@@ -35,9 +36,9 @@ def eliminate(residuals: Callable[[Array], Array], points: Array, linear: Sequen
         asked[rows, :, range(1, each)] = 1.0
         answers = residuals(asked.reshape(points.shape[0], -1))
         answers = answers.reshape(answers.shape[0], -1, each)
-        left = np.ascontiguousarray(answers[:, :, 0].T)
-        slopes = np.empty((left.shape[0], left.shape[1], len(rows)))
-        np.subtract(answers[:, :, 1:], answers[:, :, :1], out=slopes.transpose(1, 0, 2))
+        left = np.empty((answers.shape[1], answers.shape[0]))
+        slopes = np.empty((*left.shape, len(rows)))
+        differences_into(left, slopes, answers)
         found[rows, group], squares[group] = _least(left, slopes)
     return found, squares
 

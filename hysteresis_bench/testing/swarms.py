@@ -12,7 +12,6 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record
 from hysteresis_bench.testing.contracts.contract import expect
-from hysteresis_bench.testing.examples import lock
 
 MANY_CORNERS = 512
 """Of a box with more corners, so many are drawn."""
@@ -21,19 +20,22 @@ ALIKE = {"rtol": 1e-9, "atol": 1e-12}
 
 
 def drawn(box: Sequence[Parameter], swarm: int, seed: int = 0) -> Array:
-    """Values all over a box, (dimension, swarm), that cannot be written."""
+    """Values all over a box, (dimension, swarm).
+
+    They can be written, and lie side by side, as those of a fit do: for any others kernels are compiled once more.
+    """
     if not box:
         return np.empty((0, swarm))
-    return lock(Space(tuple(box)).from_unit(np.random.default_rng(seed).random((len(box), swarm))))
+    return Space(tuple(box)).from_unit(np.random.default_rng(seed).random((len(box), swarm)))
 
 
 def corners(box: Sequence[Parameter]) -> Array:
     """The corners of a box, (dimension, corners), at most MANY_CORNERS of them."""
     edges = np.array([(one.lower, one.upper) for one in box]).reshape(-1, 2)
     if 2 ** len(box) <= MANY_CORNERS:
-        return lock(np.array(list(product(*edges))).T.reshape(len(box), 2 ** len(box)))
+        return np.ascontiguousarray(np.array(list(product(*edges))).T).reshape(len(box), 2 ** len(box))
     upper = np.random.default_rng(0).random((len(box), MANY_CORNERS)) < 0.5
-    return lock(np.where(upper, edges[:, 1:], edges[:, :1]))
+    return np.where(upper, edges[:, 1:], edges[:, :1])
 
 
 def expect_shape(simulated: object, samples: int, swarm: int) -> None:
@@ -80,8 +82,9 @@ def _alike(one: Array, other: Array, scale: float) -> bool:
 
 
 def expect_untouched(system: System, record: Record, values: Array) -> None:
-    """Raises Broken where simulating changes what it was given, also where the arrays had been locked."""
-    given = [record.time, record.input, values, *record.columns.values()]
+    """Raises Broken where simulating changes what it was given, or unlocks the record's arrays, which are locked."""
+    measured = [record.time, record.input, *record.columns.values()]
+    given = [*measured, values]
     kept = [array.copy() for array in given]
     try:
         system.respond(record, values)
@@ -90,5 +93,5 @@ def expect_untouched(system: System, record: Record, values: Array) -> None:
         expect(not unwritable, "it writes into what it was given; make an array of its own.")
         raise
     same = all(np.array_equal(*pair) for pair in zip(given, kept, strict=True))
-    locked = not any(array.flags.writeable for array in given)
+    locked = not any(array.flags.writeable for array in measured)
     expect(same and locked, "it writes into what it was given, which the next trial would find changed.")

@@ -42,14 +42,15 @@ def hypothesis(rmse=0.1):
 
 @pytest.fixture
 def here(tmp_path, monkeypatch):
-    """A curve of a delayed input, in the folder that we are in. It needs no other law, which would take long."""
+    """A curve of a delayed input, and one of the input itself, in the folder that we are in. They need no other law,
+    nor, noisy as they are, more steps than samples: both would take long."""
     monkeypatch.chdir(tmp_path)
-    t = np.arange(120) / 30.0
-    u, late = (np.sin(2 * np.pi * past) * (0.5 + past / 8.0) for past in (t, t - 0.06))
-    noise = np.random.default_rng(1).standard_normal(120)
-    rows = zip(t, u, late + 0.2 * late**3 + 0.005 * noise, strict=True)
-    lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
-    (tmp_path / "loop.csv").write_text("time,input,output\n" + "\n".join(lines) + "\n", encoding="utf-8")
+    t, noise = np.arange(120) / 30.0, np.random.default_rng(1).standard_normal(120)
+    for name, delay, size in (("loop", 0.06, 0.005), ("curve", 0.0, 0.02)):
+        u, late = (np.sin(2 * np.pi * past) * (0.5 + past / 8.0) for past in (t, t - delay))
+        rows = zip(t, u, late + 0.2 * late**3 + size * noise, strict=True)
+        lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
+        (tmp_path / f"{name}.csv").write_text("time,input,output\n" + "\n".join(lines) + "\n", encoding="utf-8")
     return tmp_path
 
 
@@ -57,7 +58,7 @@ def here(tmp_path, monkeypatch):
     ("asked", "after", "file"),
     [
         ("diagnose loop.csv --model polynomial --jobs 1", 12, "diagnosis.json"),
-        ("diagnose loop.csv --models polynomial,dahl --jobs 1", 6, "diagnosis.json"),
+        ("diagnose curve.csv --models polynomial,dahl --jobs 1", 6, "diagnosis.json"),
         ("compare loop.csv --models polynomial,dahl,lugre --jobs 1", 2, "laws.csv"),
         ("fit loop.csv --model polynomial --seed 3", 1, "model.json"),
     ],

@@ -14,6 +14,8 @@ from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.signals import Dataset
 from tests.diagnosis.generator import make
 
+pytestmark = pytest.mark.usefixtures("few_laws")
+
 CASES = [
     (1, "bouc-wen", ()),
     (2, "bouc-wen", ()),

@@ -10,7 +10,9 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+from click.testing import CliRunner
 
+from hysteresis_bench.cli import main
 from tests.conftest import PLUGINS
 from tests.study.test_pool import descendants
 
@@ -32,6 +34,14 @@ data = ["cubic.csv"]
 
 def run_command(*arguments: object, **more) -> subprocess.CompletedProcess:
     return subprocess.run([*COMMAND, *map(str, arguments)], env=ENVIRONMENT, capture_output=True, text=True, **more)
+
+
+def run_here(*arguments: object) -> subprocess.CompletedProcess:
+    """The same in this process, where nothing asks for one of its own: that takes seconds to begin."""
+    done = CliRunner(env={"COLUMNS": "140"}).invoke(main, [*map(str, arguments)])
+    if done.exception and not isinstance(done.exception, SystemExit):
+        raise done.exception
+    return subprocess.CompletedProcess(arguments, done.exit_code, done.stdout, done.stderr)
 
 
 def write_study(folder: Path, optimizers: list[str], budget: int = 300, timeout: str = "5 min") -> Path:
@@ -154,10 +164,9 @@ def test_every_failure_is_a_row_and_the_others_finish(tmp_path):
 def test_a_folder_of_another_study_is_refused(finished, change, told):
     study = finished / "other.toml"
     study.write_text((finished / "cubic.toml").read_text(encoding="utf-8").replace(*change), encoding="utf-8")
-    done = run_command("run", study, "--out", finished / "runs" / "cubic")
+    done = run_here("run", study, "--out", finished / "runs" / "cubic")
     assert done.returncode == 2
     assert told in done.stderr
-    assert "Traceback" not in done.stderr
 
 
 def test_a_folder_with_other_things_in_it_is_refused(tmp_path):
@@ -169,10 +178,10 @@ def test_a_folder_with_other_things_in_it_is_refused(tmp_path):
 
 def test_changed_data_are_another_study(finished, tmp_path):
     study = write_study(tmp_path, ["pso"])
-    assert run_command("run", study, "--trials", 1).returncode == 0
+    assert run_here("run", study, "--trials", 1).returncode == 0
     with (tmp_path / "cubic.csv").open("a", encoding="utf-8") as file:
         file.write("2,0.5,0.6\n")
-    done = run_command("run", study, "--trials", 1)
+    done = run_here("run", study, "--trials", 1)
     assert done.returncode == 2
     assert "cubic.csv has changed" in done.stderr
 

@@ -7,9 +7,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from hysteresis_bench.kernels.bouc_wen import bouc_wen
-from hysteresis_bench.kernels.bouc_wen_power import bouc_wen_power
+from hysteresis_bench.kernels import bouc_wen as with_1
+from hysteresis_bench.kernels import bouc_wen_power as with_any
 from hysteresis_bench.kernels.bouc_wen_step import grown, integrated, moved
+from tests.conftest import as_models_call
+
+bouc_wen = as_models_call(with_1.bouc_wen, 0)
+bouc_wen_power = as_models_call(with_any.bouc_wen_power, 0)
 
 PUBLISHED = (0.304225, 0.675313, 0.497724, 1.045814)  # PEA paper, Table 2, G-Pmix
 

@@ -5,9 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from hysteresis_bench.kernels.bouc_wen import bouc_wen
-from hysteresis_bench.kernels.bouc_wen_generalized import bouc_wen_generalized
+from hysteresis_bench.kernels import bouc_wen as plainer
+from hysteresis_bench.kernels import bouc_wen_generalized as kernels
 from hysteresis_bench.kernels.bouc_wen_generalized_step import strained
+from tests.conftest import as_models_call
+
+bouc_wen = as_models_call(plainer.bouc_wen, 0)
+bouc_wen_generalized = as_models_call(kernels.bouc_wen_generalized, 0)
 
 PATH = np.interp(np.arange(0.0, 9.0, 0.03), np.arange(9), [0.0, 1.2, -0.8, 2.0, -2.0, 0.5, -1.0, 3.0, -3.0])
 PLAIN = [0.7, 1.0, 0.6, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 1.0]

@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections import Counter
 
-import pytest
 from numba.core.registry import CPUDispatcher
 
 import hysteresis_bench.kernels
@@ -37,13 +36,16 @@ def called(cache, *kinds):
     return done.stdout.split()
 
 
-@pytest.mark.parametrize(("first", "second"), [("shared", "own"), ("own", "own clamped"), ("shared clamped", "shared")])
-def test_processes_that_fill_a_fresh_cache_in_turn_agree(tmp_path, first, second):
-    """The second process finds one kernel in the cache and adds the other; the third finds both."""
-    alone = called(tmp_path, first)
-    added = called(tmp_path, first, second)
-    assert added[:1] == alone
-    assert called(tmp_path, first, second) == added
+def test_processes_that_fill_a_fresh_cache_in_turn_agree(tmp_path):
+    """Every process finds the kernels of those before it in the cache and adds one; the last finds all."""
+    kinds, known = ("shared clamped", "shared", "own", "own clamped"), []
+    for count in range(1, len(kinds) + 1):
+        found = called(tmp_path, *kinds[:count])
+        assert found[:-1] == known
+        known = found
+    assert known[1] != known[0]  # a kernel in the place of another would be seen
+    assert known[2] != known[3]
+    assert called(tmp_path, *kinds) == known
 
 
 def kernels_in_the_cache():

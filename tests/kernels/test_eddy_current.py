@@ -15,6 +15,7 @@ from hysteresis_bench.kernels.eddy_current import end_weight
 from hysteresis_bench.kernels.jiles_atherton import MU0, advanced, extrapolated, first_anhysteretic
 from hysteresis_bench.kernels.lag import lag
 from hysteresis_bench.parameters import Space
+from hysteresis_bench.signals import read_only
 from hysteresis_plugins.models.bouc_wen import BoucWen
 from hysteresis_plugins.models.free_energy import FreeEnergy
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
@@ -39,13 +40,15 @@ def driven(samples: int, frequency: float = 1.0) -> tuple[np.ndarray, np.ndarray
 
 def plain(name: str, u: np.ndarray, swarm: int = 1) -> np.ndarray:
     model, values = LAWS[name]
-    return model._plain(np.atleast_2d(u.T).T, SimpleNamespace(**{key: np.full(swarm, x) for key, x in values.items()}))
+    return model._plain(
+        read_only(np.atleast_2d(u.T).T), SimpleNamespace(**{key: np.full(swarm, x) for key, x in values.items()})
+    )
 
 
 def dragged(name: str, time: np.ndarray, u: np.ndarray, *coefficients: float) -> np.ndarray:
     model, values = LAWS[name]
     p = SimpleNamespace(**{key: np.full(len(coefficients), x) for key, x in values.items()})
-    return model._dragged(time, np.atleast_2d(u.T).T, np.array(coefficients, dtype=float), p)
+    return model._dragged(read_only(time), read_only(np.atleast_2d(u.T).T), np.array(coefficients, dtype=float), p)
 
 
 def bouc_wen_law(n, alpha, beta, gamma, d):
@@ -137,7 +140,7 @@ def test_so_it_does_for_bouc_wen_on_steps_of_any_size():
     drawn["gamma"] = drawn["beta"] * rng.uniform(-0.99, 0.99, 30)
     drawn["gamma"][2] = drawn["beta"][2] = 1.0  # rates 2 and 0
     coefficients = 10.0 ** rng.uniform(-4.0, 2.0, 30)
-    found = BoucWen()._dragged(time, u[:, None], coefficients, SimpleNamespace(**drawn))
+    found = BoucWen()._dragged(read_only(time), read_only(u[:, None]), coefficients, SimpleNamespace(**drawn))
     for j in range(30):
         law = bouc_wen_law(1.0, **{name: values[j] for name, values in drawn.items()})
         expected = twin(law, time, u, coefficients[j])
@@ -155,7 +158,7 @@ def test_it_stays_finite_wherever_the_parameters_are(n):
     for u in inputs:
         for coefficient in (0.0, 1e-9, 0.1, 1e9):
             coefficients = np.full(len(grid), coefficient)
-            found = BoucWen(n)._dragged(np.arange(float(u.size)), u[:, None], coefficients, p)
+            found = BoucWen(n)._dragged(read_only(np.arange(float(u.size))), read_only(u[:, None]), coefficients, p)
             assert np.all(np.isfinite(found))
 
 
@@ -204,8 +207,8 @@ def test_it_converges_with_the_second_order_of_the_step(name):
 
 def test_a_straight_law_is_an_exact_first_order_lag_on_any_grid():
     rng = np.random.default_rng(2)
-    time = np.cumsum(rng.uniform(1e-3, 1.0, 60))
-    u = rng.normal(size=(60, 1))
+    time = read_only(np.cumsum(rng.uniform(1e-3, 1.0, 60)))
+    u = read_only(rng.normal(size=(60, 1)))
     coefficients = np.geomspace(1e-4, 1e3, 8)
     straight = {"alpha": 0.0, "beta": 1.0, "gamma": 0.5, "d": 1.3}
     p = SimpleNamespace(**{key: np.full(8, x) for key, x in straight.items()})
@@ -227,10 +230,11 @@ def test_so_it_is_all_over_the_box(model, step):
     rng = np.random.default_rng(8)
     H = step * np.cumsum(rng.normal(size=(80, 1)), axis=0)
     H[30:33] = H[30]
+    H = read_only(H)
     drawn = Space(model.parameters).from_unit(rng.random((len(model.parameters), 200)))
     p = SimpleNamespace(**{q.name: row for q, row in zip(model.parameters, drawn, strict=True)})
     expected = model._plain(H, p)
-    found = model._dragged(np.arange(80.0), H, np.zeros(200), p)
+    found = model._dragged(read_only(np.arange(80.0)), H, np.zeros(200), p)
     assert np.all(np.isfinite(found))
     # where the law has several branches, rounding alone decides between them
     same = np.max(np.abs(found - expected), axis=0) <= 1e-6 * np.ptp(expected, axis=0)

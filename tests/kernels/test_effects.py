@@ -9,6 +9,7 @@ from hysteresis_bench.kernels.effects.curve_in_time import add, products, scale_
 from hysteresis_bench.kernels.effects.fatigue import fade
 from hysteresis_bench.kernels.effects.saturation import saturate
 from hysteresis_bench.kernels.sinusoid import add_sinusoid
+from hysteresis_bench.signals import read_only
 
 SWARM = 13
 OFF = np.zeros(SWARM)
@@ -101,7 +102,7 @@ def test_each_is_off_to_the_last_bit_at_its_null(y):
             off(same)
             assert np.array_equal(same, scale * y)
         assert np.array_equal(bend(1e-9 * y, OFF), 1e-9 * y)
-        assert np.array_equal(delay(np.arange(300.0), scale * y, OFF), scale * y)
+        assert np.array_equal(delay(read_only(np.arange(300.0)), scale * y, OFF), scale * y)
 
 
 def test_what_is_not_overwritten_stays(y):

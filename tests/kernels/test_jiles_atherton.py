@@ -10,10 +10,14 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from hysteresis_bench.kernels.jiles_atherton import MU0, jiles_atherton
+from hysteresis_bench.kernels import jiles_atherton as kernels
+from hysteresis_bench.kernels.jiles_atherton import MU0
 from hysteresis_bench.kernels.langevin import langevin_ratio
 from hysteresis_bench.parameters import Space
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
+from tests.conftest import as_models_call
+
+jiles_atherton = as_models_call(kernels.jiles_atherton, 0)
 
 WELL_POSED = (
     (1e-6, 6.0, 10.0, 2.5e6, 0.2),

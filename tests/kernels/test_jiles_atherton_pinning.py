@@ -3,8 +3,13 @@
 import numpy as np
 import pytest
 
-from hysteresis_bench.kernels.jiles_atherton import MU0, jiles_atherton
-from hysteresis_bench.kernels.jiles_atherton_pinning import jiles_atherton_pinning
+from hysteresis_bench.kernels import jiles_atherton as plain
+from hysteresis_bench.kernels import jiles_atherton_pinning as pinned
+from hysteresis_bench.kernels.jiles_atherton import MU0
+from tests.conftest import as_models_call
+
+jiles_atherton = as_models_call(plain.jiles_atherton, 0)
+jiles_atherton_pinning = as_models_call(pinned.jiles_atherton_pinning, 0)
 
 LAW = [np.array([value]) for value in (1e-6, 6.0, 10.0, 2.5e6, 0.2)]
 

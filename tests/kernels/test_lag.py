@@ -5,7 +5,12 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.signal import lsim
 
-from hysteresis_bench.kernels.lag import lag, late_response, weighted_lags
+from hysteresis_bench.kernels import lag as kernels
+from tests.conftest import as_models_call
+
+lag = as_models_call(kernels.lag, 0, 1)
+late_response = as_models_call(kernels.late_response, 0)
+weighted_lags = as_models_call(kernels.weighted_lags, 0)
 
 TAUS = np.array([0.0, 1e-9, 0.003, 0.05, 0.4, 7.0, 1e12])
 

@@ -3,7 +3,10 @@
 import numpy as np
 import pytest
 
-from hysteresis_bench.kernels.metal_plasticity import metal_plasticity
+from hysteresis_bench.kernels import metal_plasticity as kernels
+from tests.conftest import as_models_call
+
+metal_plasticity = as_models_call(kernels.metal_plasticity, 0)
 
 PATH = np.interp(np.arange(0.0, 9.0, 0.03), np.arange(9), [0.0, 1.2, -0.8, 2.0, -2.0, 0.5, -1.0, 3.0, -3.0])
 HARDENING = [0.4, 0.3, 0.5, 0.1, 3.0, 0.3, 2.0, 0.2, 0.4]

@@ -5,7 +5,10 @@ import pytest
 from scipy.linalg import expm
 from scipy.signal import StateSpace, lsim
 
-from hysteresis_bench.kernels.second_order import second_order
+from hysteresis_bench.kernels import second_order as kernels
+from tests.conftest import as_models_call
+
+second_order = as_models_call(kernels.second_order, 0)
 
 PUBLISHED = (510.1069, 255_700.0)  # PEA paper, Table 3, G-Pmix: c/m, k/m
 STAGES = {"underdamped": PUBLISHED, "critical": (1000.0, 250_000.0), "overdamped": (4000.0, 255_700.0)}

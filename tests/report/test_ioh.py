@@ -49,9 +49,12 @@ def test_without_the_course_of_the_searches_there_is_nothing_to_export(tmp_path)
         write_ioh(read_results(folder), tmp_path / "out")
 
 
-def test_the_command_writes_it_beside_the_report(results, tmp_path):
+def test_the_command_writes_it_beside_the_report(results, tmp_path, monkeypatch):
+    written = []  # the page itself takes seconds, and `test_report` has it
+    monkeypatch.setattr("hysteresis_bench.report.study.write_report", lambda folder: written.append(folder) or folder)
     told = CliRunner().invoke(report, [str(results.folder), "--ioh", str(tmp_path)])
     assert told.exit_code == 0, told.output
+    assert written == [results.folder]
     assert len(list(tmp_path.glob("*/*.json"))) == len(PROBLEMS) * len(OPTIMIZERS)
 
 

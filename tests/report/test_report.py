@@ -202,6 +202,13 @@ def test_the_summary_file_is_the_table(folder, page, results):
     assert set(read["optimizer"]) == set(OPTIMIZERS)
 
 
+def test_a_report_leaves_its_main_tables_as_latex(folder, page):
+    made = (folder / "tables.tex").read_text(encoding="utf-8")
+    assert made.count(r"\begin{table}") == made.count(r"\end{table}") == 1 + len(PROBLEMS)
+    assert all(made.count(f"\n{label} & ") == len(PROBLEMS) for label in OPTIMIZERS)
+    assert not re.search(r"(?<!\\)%(?! needs)", made)
+
+
 def test_the_same_results_give_the_same_report(folder, page):
     assert write_report(folder).read_text(encoding="utf-8") == page
 

@@ -1,6 +1,7 @@
 """Results folders that a full disk, a kill or a careless hand has damaged: read as far as they go, or a sentence."""
 
 import json
+import shutil
 import sqlite3
 from pathlib import Path
 
@@ -33,9 +34,15 @@ HOW = {
 FILES = (STUDY, PUBLISHED, PROVENANCE, TRIALS, RESPONSES, IDENTIFIABILITY, FILE)
 
 
+@pytest.fixture(scope="module")
+def sound(tmp_path_factory) -> Path:
+    return write_results(tmp_path_factory.mktemp("sound"), trials=2)
+
+
 @pytest.fixture
-def folder(tmp_path) -> Path:
-    return write_results(tmp_path / "results", trials=2)
+def folder(sound, tmp_path) -> Path:
+    """A copy of one's own, to be damaged."""
+    return Path(shutil.copytree(sound, tmp_path / "results"))
 
 
 @pytest.mark.parametrize("how", sorted(HOW))

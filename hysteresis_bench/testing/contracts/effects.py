@@ -237,9 +237,7 @@ def _bare(record: Record) -> Array:
 
 def _with_cubic(inner: Array) -> Array:
     """Values of the effect below those of the cubic."""
-    values = np.vstack([np.repeat([[SLOPE], [BEND]], inner.shape[1], axis=1), inner])
-    values.setflags(write=False)
-    return values
+    return np.vstack([np.repeat([[SLOPE], [BEND]], inner.shape[1], axis=1), inner])
 
 
 def _values(effect: Effect, record: Record, swarm: int) -> Array:

@@ -20,7 +20,7 @@ def _clipped(inner: Response, u: Array, hiding: Hiding) -> Array:
     half = 0.25 * hiding.strength * hiding.amplitude
     out, body = np.empty_like(u), float(u[0])
     for k, middle in enumerate(u.tolist()):
-        body = float(np.clip(body, middle - half, middle + half))
+        body = min(max(body, middle - half), middle + half)
         out[k] = body
     return inner(out)
 
@@ -53,7 +53,7 @@ def _worn_teeth(inner: Response, u: Array, hiding: Hiding) -> Array:
 def _between_walls(u: Array, half: float) -> Array:
     out, body = np.empty_like(u), float(u[0])
     for k, middle in enumerate(u.tolist()):
-        body = float(np.clip(body, middle - half, middle + half))
+        body = min(max(body, middle - half), middle + half)
         out[k] = body
     return out
 
