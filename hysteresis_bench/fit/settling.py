@@ -32,18 +32,23 @@ def is_closed(record: Record) -> bool:
     return bool(abs(record.input[-1] - record.input[0]) <= 2 * float(np.max(np.abs(np.diff(record.input)))))
 
 
+def passed(record: Record, repeats: int) -> Record:
+    """A closed loop preceded by `repeats` of itself; what is none stays as it is."""
+    return record.settled(repeats) if repeats and is_closed(record) else record
+
+
 def gap_after(system: System, records: Sequence[Record], values: Array, *, repeats: int) -> float:
     """How far the last two passes of the worst loop differ, as a fraction of the range of its output.
 
-    values : (dimension,), in units;  records : preceded by `repeats` of themselves
+    values : (dimension,), in units;  records : as of `passed`; those that are no closed loop do not count
     """
     gaps = []
-    for record in records:
+    for record in filter(is_closed, records):
         simulated = system.respond(record, values[:, None])[:, 0]
         period = record.time.size // (repeats + 1)
         last, before = simulated[-period:], simulated[-2 * period : -period]
         gaps.append(float(np.max(np.abs(last - before)) / (np.ptp(record.measured) or 1.0)))
-    return max(gaps)
+    return max(gaps, default=0.0)
 
 
 def not_closed(gap: float, repeats: int) -> list[str]:
