@@ -59,10 +59,10 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
     # before a lone record is split: what is left of it is no loop
-    ready, told = settled(dataset.map(question.preparation.skipped), question.options.settle)
+    asked = question.options
+    ready, told = settled(dataset.map(question.preparation.skipped), asked.settle, asked.input_offset)
     fitted, _ = with_held_out(ready)
-    options = replace(question.options, skip=0.0, settle=False)
-    laws = compare(fitted, replace(question, options=options), effects_follow=True)
+    laws = compare(fitted, replace(question, options=replace(asked, skip=0.0, settle=False)), effects_follow=True)
     laws = replace(laws, notes=(*laws.notes, *told))
     promising = _promising(laws, len(fitted.fitted) > 1)
     found = [_diagnosed(dataset, replace(question, model=law), promising) for law in promising]

@@ -11,6 +11,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
 from hysteresis_bench.fit.fitting import FitOptions
+from hysteresis_bench.fit.settling import passed
 from hysteresis_bench.signals import Dataset, Record
 
 LAWS = (
@@ -109,3 +110,28 @@ def test_a_lone_settled_period_is_compared_and_diagnosed_without_a_law():
     assert SAID in diagnosed.laws.notes
     assert diagnosed.model.preparation.settle > 0
     assert diagnosed.after.held_out.rmse < 2.0 * diagnosed.noise.floor
+
+
+def test_passes_begin_where_a_device_is_at_rest():
+    loop = period("dahl", "cosine", 0.0, settled=True)
+    ready = passed(loop, 2)
+    assert ready.time.size == 3 * loop.time.size
+    assert ready.input[0] == 0.0
+    assert np.all(np.diff(ready.input[: loop.time.size]) <= 0.0)
+    assert np.array_equal(ready.input[loop.time.size :], np.tile(loop.input, 2))
+    assert np.array_equal(ready.measured, loop.output)
+    shifted = replace(loop, input=loop.input + 3.0 * np.ptp(loop.input))
+    assert passed(shifted, 2).input[0] == shifted.input[0]
+    assert passed(shifted, 2, 3.0 * np.ptp(loop.input)).input[0] == 3.0 * np.ptp(loop.input)
+
+
+def test_a_loop_about_no_input_settles_in_the_middle():
+    """Cells that are pinned harder than the loop reaches would stay at the tip where it begins."""
+    model = registry.build("models", "energy-based")
+    values = {"a": 1.0, "coupling": 0.9, "pinning": 1.0, "spread": 1.0, "reversible": 0.5, "slope": 0.0, "M_s": 1.0}
+    column = np.array([[values[q.name]] for q in model.parameters])
+    u = DRIVES["cosine"](PHASE)
+    loop = Record(PHASE, u, np.zeros(u.size))
+    settled, tip = (System(model).respond(ready, column)[-u.size :, 0] for ready in (passed(loop, 8), loop.settled(8)))
+    assert abs(settled.max() + settled.min()) < 0.01 * np.ptp(settled)
+    assert abs(tip.max() + tip.min()) > 0.1 * np.ptp(tip)

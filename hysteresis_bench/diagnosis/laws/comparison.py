@@ -115,12 +115,15 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     return Comparison(table, chosen, words, floor, dict(dataset.units), (*_notes(seen, options), *told), found)
 
 
-def settled(dataset: Dataset, asked: bool | None) -> tuple[Dataset, tuple[str, ...]]:
-    """Closed loops passed before they are scored, as `asked` or as the fitted records say, and what to tell of it."""
+def settled(dataset: Dataset, asked: bool | None, rest: float = 0.0) -> tuple[Dataset, tuple[str, ...]]:
+    """Closed loops passed before they are scored, as `asked` or as the fitted records say, and what to tell of it.
+
+    rest : the input of a device at rest
+    """
     if not settled_periods(dataset.fitted, asked):
         return dataset, ()
     said = f"Every loop was passed {PASSES} times before it was scored."
-    return dataset.map(lambda record: passed(record, PASSES)), ((SAID,) if asked is None else ()) + (said,)
+    return dataset.map(lambda record: passed(record, PASSES, rest)), ((SAID,) if asked is None else ()) + (said,)
 
 
 def _prepared(dataset: Dataset, question: Question) -> tuple[Dataset, tuple[str, ...]]:
