@@ -198,6 +198,12 @@ def measurement(case: str, column: str) -> Any:
     return measurements().at[case, column]
 
 
+def law(device: str, column: str) -> Any:
+    """One number of the law that was chosen for a measured device."""
+    laws = pd.read_csv(RESULTS / "real-measurements" / "laws.csv").set_index("device")
+    return laws.at[device, column]
+
+
 def unexplained() -> str:
     """Measurements in which something is left that no effect explains, as "12 of 12"."""
     rows = measurements()

@@ -13,7 +13,8 @@ from hysteresis_bench.diagnosis.evidence.view import View, views_of
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
+from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, passed
 from hysteresis_bench.signals import Dataset, Record
 
 SEARCHED = 4000
@@ -57,17 +58,17 @@ def prepare(dataset: Dataset, question: Question) -> Prepared:
     """Prepare the input, let closed loops settle, hold a part out. Raises UserError telling every fault at once."""
     question.check(dataset)
     model, seen = question.built, dataset.map(question.preparation)
-    passes = passes_to_close(model, seen, question) if question.options.settle else 0
-    seen = seen.map(lambda record: record.settled(passes)) if passes else seen
-    ready, how = with_held_out(seen)
-    return Prepared(model, ready, how, views_of(ready.fitted), passes)
+    asked = question.options.settle
+    passes = passes_to_close(model, seen, question) if settled_periods(seen.fitted, asked) else 0
+    ready, how = with_held_out(seen.map(lambda record: passed(record, passes)))
+    return Prepared(model, ready, how, views_of(ready.fitted), passes, (SAID,) if passes and asked is None else ())
 
 
 def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:
     """How often a closed loop is repeated before it is scored: until the bare model, fitted, closes it."""
     passes = FIRST_REPEATS
     while True:
-        records = tuple(record.settled(passes) for record in dataset.fitted)
+        records = tuple(passed(record, passes) for record in dataset.fitted)
         stack = Stack(model, thinned(views_of(records)), tuple(question.effects), question.bounds, question.fixed)
         fitter = Fitter(stack, question.options.seed)
         system, values = fitter.fitted(fitter.bare(frozenset({registry.RECORD_OFFSET})))

@@ -28,7 +28,7 @@ class DiagnosisOptions:
     seed : of all searches;  jobs : processes; default: as many as cores, at most 4
     input_offset, flip : the model sees (input - input_offset), times -1 with flip
     skip : seconds at the start of every record that are simulated and not scored
-    settle : closed loops are repeated until they close before they are scored
+    settle : closed loops are repeated until they close before they are scored; None: where the fitted records say so
     laws : models among which the law is sought where none is named, all registered ones where empty
     accept_terms : add what describes the remaining residual to the model, as an effect that explains nothing
     on_step : called with where the diagnosis is
@@ -40,7 +40,7 @@ class DiagnosisOptions:
     input_offset: float = 0.0
     flip: bool = False
     skip: float = 0.0
-    settle: bool = False
+    settle: bool | None = None
     accept_terms: bool = False
     laws: Sequence[str] = ()
     on_step: OnStep = field(default=quiet, compare=False, repr=False)

@@ -23,6 +23,7 @@ from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
 from hysteresis_bench.fit.least_squares import not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
@@ -31,7 +32,7 @@ from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
-from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops
+from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops, passed
 from hysteresis_bench.fit.smooth.smoothing import SOLVED, Smoothing, solvable
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.kernels.resources import economical
@@ -49,7 +50,7 @@ class FitOptions:
     seed : of both searches
     input_offset, flip : the model sees (input - input_offset), times -1 with flip
     skip : seconds at the start of every record that are simulated and not scored
-    settle : closed loops are repeated until they close before they are scored
+    settle : closed loops are repeated until they close before they are scored; None: where the fitted records say so
     on_step : called with where the fit is
     kept : searches of an earlier run that was stopped, which are not made again; every new one is given to it
     """
@@ -61,7 +62,7 @@ class FitOptions:
     input_offset: float = 0.0
     flip: bool = False
     skip: float = 0.0
-    settle: bool = False
+    settle: bool | None = None
     on_step: OnStep = field(default=quiet, compare=False, repr=False)
     kept: Kept | None = field(default=None, compare=False, repr=False)
 
@@ -142,7 +143,9 @@ def fit_records(
     if faults := preparation.faults(dataset.records):
         raise UserError("fit", faults)
     seen = dataset.map(preparation)
-    _check(system, seen, options.settle)
+    _check(system, seen, bool(options.settle))
+    told = () if options.settle is not None else (SAID,)
+    options = replace(options, settle=settled_periods(seen.fitted, options.settle))
     space = _space(system, seen.fitted, bounds or {})
     best = _searched(system, space, seen, options)
     problem, values = best.problem, best.values
@@ -178,7 +181,7 @@ def fit_records(
             *at_edges(parameters[~parameters["name"].isin(weights)]),
             *analysis.sentences(),
         ),
-        (*dataset.notes, *_notes(problem, options, best.repeats)),
+        (*dataset.notes, *_notes(problem, options, best.repeats), *(told if best.repeats else ())),
     )
 
 
@@ -248,7 +251,7 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
     optimizer = registry.build("optimizers", options.optimizer, options.optimizer_settings)
     repeats = FIRST_REPEATS
     while True:
-        ready = dataset.map(lambda record, n=repeats: record.settled(n)) if options.settle else dataset
+        ready = dataset.map(lambda record, n=repeats: passed(record, n)) if options.settle else dataset
         problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
         found = [Smoothing(problem).searched(judged(problem.records, ready)).values] if smooth else []
         for run in () if smooth else (0, 1):

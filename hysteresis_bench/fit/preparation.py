@@ -10,7 +10,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.units import seconds_in
-from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed
+from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed, passed
 from hysteresis_bench.signals import INDEX, Record
 
 Values = TypeVar("Values", float, Array)
@@ -47,7 +47,7 @@ class Preparation:
     def __call__(self, record: Record) -> Record:
         """The record as the model sees it; one that is no closed loop is passed once."""
         ready = replace(self.skipped(record), input=self.seen_input(record.input), steps=self.steps)
-        return ready.settled(self.settle) if self.settle and is_closed(record) else ready
+        return passed(ready, self.settle)
 
     def skipped(self, record: Record) -> Record:
         """The record as it is, its beginning turned into history."""

@@ -79,8 +79,9 @@ def test_what_the_pages_conclude_from_the_kept_results_holds():
         assert kept.summary(study, problem)["expected_running_time"].idxmin() == "scipy-least-squares"
     ours, all_of_them = map(int, kept.named(False).split(" of "))
     assert ours < all_of_them / 2
-    steel = [kept.measurement("electrical steel", f"held_out_{when}") for when in ("before", "after")]
-    assert steel[1] > steel[0]
+    steel = [kept.measurement("electrical steel", f"{which}_after") for which in ("fitted", "held_out")]
+    assert steel[1] > 5.0 * steel[0]
+    assert kept.law("electrical steel, one loop", "held_out") < 0.5 * steel[1]
     assert "input-lag or transport-delay" in kept.measurement("piezo", "ties")
     assert "input-lag" in kept.closing("pea")["advice"]
 

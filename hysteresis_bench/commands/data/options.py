@@ -28,7 +28,11 @@ PREPARATION = (
     click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input."),
     click.option("--flip", is_flag=True, help="Change the sign of the input."),
     click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored."),
-    click.option("--settle", is_flag=True, help="Repeat closed loops until they close, before scoring."),
+    click.option(
+        "--settle/--no-settle",
+        default=None,
+        help="Repeat closed loops until they close, before scoring; default: where the records are settled periods.",
+    ),
 )
 PREPARED = ("input_offset", "flip", "skip", "settle")
 

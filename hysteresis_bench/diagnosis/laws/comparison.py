@@ -27,7 +27,8 @@ from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, reco
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
-from hysteresis_bench.fit.settling import open_loops
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
+from hysteresis_bench.fit.settling import open_loops, passed
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, open_way
 from hysteresis_bench.kernels.resources import economical
@@ -77,7 +78,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     Where none is named, those are left out that the data exclude. Held-out records are predicted and never choose.
     effects_follow : effects will be sought around the laws. Raises UserError telling every fault at once.
     """
-    options, seen = question.options, _prepared(dataset, question)
+    options, (seen, told) = question.options, _prepared(dataset, question)
     views = views_of(seen.fitted)
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
     thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
@@ -111,10 +112,22 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
-    return Comparison(table, chosen, words, floor, dict(dataset.units), _notes(seen, options), found)
+    return Comparison(table, chosen, words, floor, dict(dataset.units), (*_notes(seen, options), *told), found)
 
 
-def _prepared(dataset: Dataset, question: Question) -> Dataset:
+def settled(dataset: Dataset, asked: bool | None, rest: float = 0.0) -> tuple[Dataset, tuple[str, ...]]:
+    """Closed loops passed before they are scored, as `asked` or as the fitted records say, and what to tell of it.
+
+    rest : the input of a device at rest
+    """
+    if not settled_periods(dataset.fitted, asked):
+        return dataset, ()
+    said = f"Every loop was passed {PASSES} times before it was scored."
+    return dataset.map(lambda record: passed(record, PASSES, rest)), ((SAID,) if asked is None else ()) + (said,)
+
+
+def _prepared(dataset: Dataset, question: Question) -> tuple[Dataset, tuple[str, ...]]:
+    """As the laws see it, and what to tell of it."""
     models, known, settle = question.options.laws, registry.names("models"), question.options.settle
     faults = [f'no model "{name}". {nearest(name, known)}' for name in models if name not in known]
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
@@ -123,16 +136,15 @@ def _prepared(dataset: Dataset, question: Question) -> Dataset:
     seen = dataset if faults else without_spikes(dataset).map(question.preparation)
     if faults := faults or record_faults(seen.fitted, "compare"):
         raise UserError("compare", faults)
-    return seen.map(lambda record: record.settled(PASSES)) if settle else seen
+    return settled(seen, settle)
 
 
 def _notes(seen: Dataset, options: DiagnosisOptions) -> tuple[str, ...]:
     fitted, held_out = ([record.name for record in records] for records in (seen.fitted, seen.held_out))
-    settled = f" Every loop was passed {PASSES} times before it was scored." if options.settle else ""
     return (
         *seen.notes,
         f"Fitted: {', '.join(fitted)}." + (f" Held out: {', '.join(held_out)}." if held_out else ""),
-        f"Two searches by {registry.SEARCH} a law, seed {options.seed}, and an offset a record.{settled}",
+        f"Two searches by {registry.SEARCH} a law, seed {options.seed}, and an offset a record.",
     )
 
 

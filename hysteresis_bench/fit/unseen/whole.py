@@ -109,8 +109,14 @@ def last_part(records: Sequence[Record]) -> Array:
 
 
 def open_way(records: Sequence[Record]) -> bool:
-    """Is it a lone record whose input never closes a loop, so that nothing tells how a law comes back?"""
-    return len(records) == 1 and not _cycles(records[0].input[records[0].scored])
+    """Is it a lone record whose input never closes a loop, so that nothing tells how a law comes back?
+
+    What is passed before it is scored comes back: one settled period closes its loop.
+    """
+    if len(records) > 1:
+        return False
+    record = records[0]
+    return not _cycles(record.input if record.history >= record.measured.size else record.input[record.scored])
 
 
 def _cycles(u: Array) -> bool:
