@@ -22,8 +22,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Dataset, Record, Signal
 
 Start = Callable[[int], Array]
-"""start(particles) -> (dimension, particles): the first points, shared by all optimizers of a trial.
-The first k columns do not depend on how many are asked for."""
+"""start(particles) -> (dimension, particles), shared by a trial's optimizers; the first columns are always the same."""
 
 Acts: TypeAlias = Literal["law", "input", "output", "added"]
 """Where an effect acts, as the chain is ordered: inside or beside the law, on its input, its output, or only added."""
@@ -216,8 +215,7 @@ class Objective(Protocol):
         """point : (dimension,) -> (scored samples,), simulated minus measured. One evaluation."""
 
     def residual_swarm(self, points: Array) -> Array:
-        """points : (dimension, swarm) -> (scored samples, swarm), simulated minus measured. As many evaluations as
-        columns; where the budget does not afford them all, BudgetSpent is raised as in `many`."""
+        """points : (dimension, swarm) -> (scored samples, swarm), simulated minus measured; raises as `many` does."""
 
 
 class Optimizer(ABC):

@@ -91,7 +91,7 @@ class EffectContract(PluginContract):
         for row, parameter in enumerate(effect.box([record]), start=2):
             if parameter.null is not None:
                 values[row] = parameter.upper
-        change = np.max(np.abs(_around(effect).simulate(record.signal, values) - _bare(record)), axis=0)
+        change = np.max(np.abs(_around(effect).respond(record, values) - _bare(record)), axis=0)
         least = float(np.min(change)) / float(np.ptp(record.measured))
         expect(
             least > SEEN or not effect.parameters,

@@ -63,9 +63,7 @@ class RecordWave(FreeForm):
         return narrow(last, longest(records)), frequency, *(one.within(-half, half) for one in amplitudes)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
-        if reason := PeriodicDisturbance().inapplicable(records):
-            return reason
-        return "" if len(records) > 1 else "there is one record, with one phase"
+        return PeriodicDisturbance().inapplicable(records)
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
         """The highest lines of the residuals' spectrum, of the mean amplitude over the records."""
