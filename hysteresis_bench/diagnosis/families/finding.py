@@ -34,7 +34,8 @@ class FamilyFinding:
     def sentence(self) -> str:
         curve = self.curve
         along = np.log(curve.x) if curve.logarithmic else curve.x
-        moves = f"the {curve.of} {course(along, curve.y)} with the {curve.along}"
+        how = course(along, curve.y)
+        moves = f"the {curve.of} {how}{',' if ',' in how else ''} with the {curve.along}"
         return f"{self.effect} ({self.family}): {moves}; no formula here fits: the curve is in the model."
 
 

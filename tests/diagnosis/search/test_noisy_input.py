@@ -1,10 +1,14 @@
 """Smoothed inputs: as much is taken off as their noise has, and corners stay."""
 
+from importlib import import_module
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
 
+from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
-from hysteresis_bench.signals import Record
+from hysteresis_bench.signals import Dataset, Record
 
 
 def sine(time):
@@ -34,3 +38,26 @@ def test_an_input_without_noise_is_left_alone():
     for u in (sine(time), triangle(time), np.zeros(time.size)):
         record = Record(time, u, u)
         assert with_smooth_inputs([record]) == (record,)
+
+
+class Stop(Exception):
+    """The search is over."""
+
+
+@pytest.mark.parametrize(("left", "again"), [(1.05, True), (1.9, True), (2.1, False), (8.4, False)])
+def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(monkeypatch, left, again):
+    module = import_module("hysteresis_bench.diagnosis.diagnose")
+    smoothed, found = [], SimpleNamespace(best=SimpleNamespace(rmse=left), selection=SimpleNamespace(floor=1.0))
+    prepared = SimpleNamespace(views=())
+    prepared.without = lambda change, why: smoothed.append(change) or prepared
+
+    def enough(found):
+        raise Stop
+
+    evidence = SimpleNamespace(noise=SimpleNamespace(input_heard=True))
+    for name, answer in (("prepare", prepared), ("gather", evidence), ("search", found)):
+        monkeypatch.setattr(module, name, lambda *rest, answer=answer: answer)
+    monkeypatch.setattr(module, "few_samples", enough)
+    with pytest.raises(Stop):
+        module._diagnosed(Dataset(()), Question("bouc-wen"), ())
+    assert smoothed == ([with_smooth_inputs] if again else [])
