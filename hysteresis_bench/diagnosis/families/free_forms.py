@@ -3,13 +3,14 @@ left out, and explains most of what the formulas leave over the noise, the free 
 needed any more leaves.
 
 So a free form takes the place of a formula of its family, of one of another family that stood in for it, or of none.
-What the wrong formula left may have hidden an effect that has a name: once a curve has joined, names are asked again.
+Names that were found beside the wrong formula may be its fault, and others may have been hidden by what it left: once a
+curve has joined, the search for names goes on from there.
 """
 
 from __future__ import annotations
 
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, MOST, NAMED, Selection
+from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, MISFIT, MOST, NAMED, Selection
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 
@@ -17,17 +18,19 @@ def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
     """The system with free forms where names do not do as well; `selection` counts those as candidates from now on."""
     names = selection.candidates
     forms = selection.fitter.stack.free_forms()
-    selection.candidates, selection.forms = (*names, *forms), forms
-    current = named
+    selection.forms = forms
+    current, seen = named, {named.names}
     for _ in range(MOST):
+        selection.candidates = (*names, *forms)
         better = _freed(selection, current, [form for form in forms if form not in current.names])
-        if better is None:
+        if better is None or better.names in seen:
             break
-        current = _with_names(selection, better, names)
+        selection.candidates = (*names, *(form for form in forms if form in better.names))
+        # what was named beside the wrong formula may be its fault, and it may have hidden what has a name
+        current = selection.settled(selection.run(better))
+        seen |= {better.names, current.names}
     if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
         current = named
-    elif current is not named:  # what was named beside the wrong formula may be its fault
-        current = selection.settled(selection.exchanged(current) or current)
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
 
@@ -40,21 +43,18 @@ def _freed(selection: Selection, current: Hypothesis, forms: list[str]) -> Hypot
     found = [system for system in tried if _clearly(selection, current, system)]
     if not found:
         return None
-    better = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
+    better = _thinned(selection, selection.workers.map([("refitted", selection.simplest(_fixed(selection, found)))])[0])
     # beside all that is named a free form is one claim more: a little misfit is too little for it
     more = len(selection.adopted(better)) > len(selection.adopted(current))
     return None if more and current.rmse <= MISFIT * selection.floor else better
 
 
-def _with_names(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
-    """With every name that is needed beside the curve and explains more than what then remains, the best one first."""
-    while len(selection.adopted(current)) < MOST and current.rmse > MATTERS * selection.floor:
-        tried = selection.with_each(current, [name for name in names if name not in current.names])
-        found = [system for system in tried if _clearly(selection, current, system)]
-        if not found:
-            break
-        current = _thinned(selection, selection.workers.map([("refitted", selection.simplest(found))])[0])
-    return current
+def _fixed(selection: Selection, found: list[Hypothesis]) -> list[Hypothesis]:
+    """Those that estimate nothing anew on every record, blocks left out too, where one of them is about as good."""
+    effect = selection.fitter.stack.effect
+    fixed = [one for one in found if not any(effect(name).estimates for name in selection.adopted(one))]
+    best = min(found, key=lambda system: system.cv_rmse)
+    return fixed if any(one.cv_rmse < ALIKE * best.cv_rmse for one in fixed) else found
 
 
 def _in_place(selection: Selection, current: Hypothesis, forms: list[str]) -> list[Hypothesis]:

@@ -108,7 +108,7 @@ class Selection:
 
     def alternatives(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
         """The systems with another effect in the place of an adopted one; of a free form, also another free form."""
-        more = self.forms if name in self.forms else ()
+        more = [form for form in self.forms if name in self.forms and not self.fitter.stack.effect(form).estimates]
         return self._sought(self._extensions(self.without(current, name), current, more))
 
     def rivals(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
