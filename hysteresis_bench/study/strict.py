@@ -110,7 +110,7 @@ def _sentence(form: type[Strict], fault: Any) -> str:
     return shown(f"{' '.join(place)}: {message[0].lower() + message[1:]}.")
 
 
-LONGEST = 500
+LONGEST = 1000
 """Characters of a sentence that are told: a file may hold a megabyte under one key."""
 
 

@@ -19,7 +19,7 @@ from hysteresis_bench.signals import Dataset
 from tests.conftest import ROOT, record
 
 SLOW = """
-import sys, time
+import signal, sys, time
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.fit.objective import Problem
@@ -29,6 +29,7 @@ for name in ("losses", "residuals"):
         time.sleep(0.2)
         return known(self, points)
     setattr(Problem, name, slowly)
+signal.signal(signal.SIGINT, signal.default_int_handler)  # a job in the background inherits that it is ignored
 main(sys.argv[1:])
 """
 
