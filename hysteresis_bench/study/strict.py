@@ -110,14 +110,18 @@ def _sentence(form: type[Strict], fault: Any) -> str:
     return shown(f"{' '.join(place)}: {message[0].lower() + message[1:]}.")
 
 
-LONGEST = 1000
-"""Characters of a sentence that are told: a file may hold a megabyte under one key."""
+LONGEST, LONGEST_QUOTED = 1000, 100
+"""Characters of a sentence, and of a text that it quotes, that are told: a file may hold a megabyte under one key."""
 
 
 def shown(text: str) -> str:
-    """Text that a terminal can print, cut at LONGEST."""
-    plain = printable(text)
-    return plain if len(plain) <= LONGEST else f"{plain[:LONGEST]} ..."
+    """Text that a terminal can print, cut where it quotes at length, so that what would be right is still told."""
+    plain = re.sub(r'"[^"]*"', lambda quoted: f'"{_cut(quoted[0][1:-1], LONGEST_QUOTED)}"', printable(text))
+    return _cut(plain, LONGEST)
+
+
+def _cut(text: str, longest: int) -> str:
+    return text if len(text) <= longest else f"{text[:longest]} ..."
 
 
 def _words(location: tuple[int | str, ...]) -> list[str]:

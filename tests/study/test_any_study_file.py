@@ -53,7 +53,16 @@ def test_one_odd_value_is_a_study_or_a_sentence(name, place, value):
         check_study(raw, "a.toml")
     except UserError as error:
         faults = error.faults
-    assert all(fault.isprintable() and len(fault) < 600 for fault in faults)
+    assert all(fault.isprintable() and len(fault) < 1100 for fault in faults)
+
+
+def test_a_name_of_any_length_leaves_room_for_the_known_ones():
+    raw = with_value("pea", ("problem", 0, "loss"), "é" * 100_000)
+    with pytest.raises(UserError) as raised:
+        check_study(raw, "a.toml")
+    (fault,) = raised.value.faults
+    assert len(fault) < 300
+    assert "Known: relative-rms-per-root-sample, rmse" in fault
 
 
 @pytest.mark.parametrize(
