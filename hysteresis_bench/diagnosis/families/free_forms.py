@@ -14,24 +14,36 @@ from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, MISFIT, 
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 
-def with_free_forms(selection: Selection, named: Hypothesis) -> Hypothesis:
-    """The system with free forms where names do not do as well; `selection` counts those as candidates from now on."""
-    names = selection.candidates
+def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
+    """The system with free forms where names do not do as well; `selection` counts those as candidates from now on.
+
+    found : what passed every test. The wrong formula of one effect may leave so much that the right one of another
+    explains less than what is left, and is not named: free forms are tried beside both first.
+    """
+    names, named = selection.candidates, selection.named(found)
     forms = selection.fitter.stack.free_forms()
     selection.forms = forms
-    current, seen = named, {named.names}
+    for start in [found, named] if found.names != named.names else [named]:
+        current = _joined(selection, start, names)
+        if current is not start and current.rmse <= MISFIT * selection.floor:
+            break
+        current = named  # what even curves do not explain is the law's, and they its stand-ins
+    selection.candidates = (*names, *(form for form in forms if form in current.names))
+    return current
+
+
+def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
+    """With the free forms that the system asks for, each with the names that are found beside it."""
+    current, seen = start, {start.names}
     for _ in range(MOST):
-        selection.candidates = (*names, *forms)
-        better = _freed(selection, current, [form for form in forms if form not in current.names])
+        selection.candidates = (*names, *selection.forms)
+        better = _freed(selection, current, [form for form in selection.forms if form not in current.names])
         if better is None or better.names in seen:
             break
-        selection.candidates = (*names, *(form for form in forms if form in better.names))
+        selection.candidates = (*names, *(form for form in selection.forms if form in better.names))
         # what was named beside the wrong formula may be its fault, and it may have hidden what has a name
-        current = selection.settled(selection.run(better))
+        current = selection.settled(selection.named(selection.run(better)))
         seen |= {better.names, current.names}
-    if current.rmse > MISFIT * selection.floor:  # what even curves do not explain is the law's, and they its stand-ins
-        current = named
-    selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
 
 

@@ -74,11 +74,11 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
             evidence = evidence.at_most(base.rmse)
         selection = Selection(thin, workers, evidence.floor, possible)
         best = selection.run(base)
-        quieter = evidence.heard_anew(undisturbed(full, best))
+        quieter = evidence.heard_anew(undisturbed(full, selection.named(best)))
         if quieter.noise.floor < QUIETER * evidence.noise.floor:
             evidence = quieter
             selection.floor = evidence.floor
-            best = selection.run(best)
+            best = selection.run(selection.named(best))
         on_step(Step("free forms in the place of names"))
         best = with_free_forms(selection, best)
         on_step(Step("what the data say of the selection"))

@@ -88,7 +88,7 @@ class Selection:
     weighed: set[tuple[frozenset[str], str]] = field(default_factory=set)
 
     def run(self, base: Hypothesis) -> Hypothesis:
-        """From the bare model to the last adopted effect."""
+        """From the bare model to the last effect that passes, `named` or not."""
         current = base
         visited = {current.names: current.rmse}
         while True:
@@ -99,7 +99,7 @@ class Selection:
             else:
                 better = self.exchanged(current) or self._paired(found) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
-                return self._named(current)
+                return current
             current = better
             visited[current.names] = current.rmse
 
@@ -218,7 +218,7 @@ class Selection:
             current = better
         return current
 
-    def _named(self, current: Hypothesis) -> Hypothesis:
+    def named(self, current: Hypothesis) -> Hypothesis:
         """Without the effects that explain less than what is left beside them, the least telling first."""
         while names := self.adopted(current):
             smaller = self._reduced(current, names)

@@ -26,7 +26,7 @@ def asked(request):
     fitter = Fitter(Stack(registry.build("models", "bouc-wen"), seen.records))
     with Workers(fitter, jobs=1) as workers:
         selection = Selection(fitter, workers, seen.hidden["noise"], LAGS)
-        named = selection.run(fitter.bare(frozenset({registry.RECORD_OFFSET})))
+        named = selection.named(selection.run(fitter.bare(frozenset({registry.RECORD_OFFSET}))))
         return request.param, selection, with_free_forms(selection, named), named
 
 

@@ -33,7 +33,7 @@ def asked(request):
     with Workers(fitter, jobs=1) as workers:
         names = ("asymmetry", "creep", "periodic-disturbance")
         selection = Selection(fitter, workers, seen.hidden["noise"], names)
-        named = selection.run(fitter.bare(frozenset({registry.RECORD_OFFSET})))
+        named = selection.named(selection.run(fitter.bare(frozenset({registry.RECORD_OFFSET}))))
         yield request.param, selection, with_free_forms(selection, named), records
 
 

@@ -74,7 +74,7 @@ def test_an_effect_is_named_that_explains_more_than_it_leaves(share, named):
     """All of them join, because they pass every test; in the end the smaller ones are dropped."""
     base, larger = fit("", leaving(1.0)), fit("a", leaving(1.0 - share))
     selection = selection_of(base, larger, candidates="a")
-    found = selection.run(base)
+    found = selection.named(selection.run(base))
     assert selection.rounds[0].chosen == "a"
     assert found.names == set(named)
 
@@ -83,7 +83,7 @@ def test_what_stays_is_weighed_again_without_what_was_dropped():
     """b explains most, c little of what b leaves; next to c alone, b stays."""
     both, b, c = fit("bc", 1.0), fit("b", 1.2), fit("c", 3.0)
     selection = selection_of(fit("", 3.2), both, b, c, candidates="bc")
-    assert selection._named(both) is b
+    assert selection.named(both) is b
 
 
 def test_a_better_fit_found_later_replaces_the_known_one():
