@@ -72,7 +72,10 @@ class System:
 
     def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
-        simulated = record.at_samples(self.simulate(record.signal, values))
+        return self.adjusted(record.at_samples(self.simulate(record.signal, values)), record, values)
+
+    def adjusted(self, simulated: Array, record: Record, values: Array) -> Array:
+        """What was simulated at the samples of a record, with what the nuisances estimate from it: (samples, swarm)."""
         for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
             simulated = effect.adjust(simulated, record, p)
         return simulated

@@ -22,8 +22,9 @@ from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
 from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
+from hysteresis_bench.diagnosis.search.past import pasts, with_pasts
 from hysteresis_bench.diagnosis.search.search import Found, search
-from hysteresis_bench.diagnosis.search.selection import ALIKE, MISFIT, NAMED
+from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, NAMED
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.smooth.smoothing import Rough
@@ -44,6 +45,20 @@ BETWEEN = (
     "through the input where it has no corners, so that no effect makes up for what lies between. `predict` does the "
     "same; what `control` and `export` simulate has the steps of its own time."
 )
+
+MID_LOOP = (
+    "The records seem to begin in mid-loop, where a model begins at rest: until the input has passed both ends of its "
+    "range they are off, and not later{}."
+)
+CUT = "Up to there they are simulated and not scored; `predict` will be off there as well."
+PAST = (
+    "Two turning points of the input before each record were estimated, which explain what it remembers, and are "
+    "simulated before it (of one that is held out, by its beginning, which is not scored); `predict` begins at rest, "
+    "and will be off there."
+)
+
+ESTIMATED = 3
+"""Times that what came before the records is estimated at most, each by another system, that leaves less."""
 
 
 @economical()
@@ -82,7 +97,7 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
     on_step(Step(f"{law}: the noise of the input"))
     # the floor knows of the input's noise: what is left far above it, no smoother input explains
     if evidence.noise.input_heard and found.best.rmse <= WRONG * found.selection.floor:
-        smooth = prepared.without(with_smooth_inputs, SMOOTHED)
+        smooth = prepared.read_as(with_smooth_inputs(prepared.dataset.records), SMOOTHED)
         quiet = gather(smooth.views)
         # what is left of an input that is rough by itself passes for noise again
         again = found if quiet.noise.input_heard else search(smooth, quiet, question)
@@ -90,14 +105,12 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
             prepared, found = smooth, again
     on_step(Step(f"{law}: what lies between the samples"))
     if few_samples(found):
-        finer, again = _anew(prepared.without(with_finer_steps, BETWEEN), question)
+        finer, again = _anew(prepared.read_as(with_finer_steps(prepared.dataset.records), BETWEEN), question)
         if again.best.rmse < ALIKE * found.best.rmse:
             prepared, found = finer, again
     on_step(Step(f"{law}: the records' beginnings"))
     if (spare := only_in_beginnings(found)) is not None:
-        later, again = _anew(prepared.without(without_beginnings, _in_mid_loop(spare)), question)
-        if again.best.rmse <= MISFIT * again.selection.floor:
-            prepared, found = later, again
+        prepared, found = _in_mid_loop(prepared, found, spare, question)
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
     left = remainder(stages.after, found.evidence)
@@ -118,13 +131,27 @@ def _anew(ready: Prepared, question: Question) -> tuple[Prepared, Found]:
     return ready, search(ready, gather(ready.views), question)
 
 
-def _in_mid_loop(spare: Sequence[str]) -> str:
+def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], question: Question) -> tuple[Prepared, Found]:
+    """Without the records' beginnings, or with what came before them where that leaves as little of all samples.
+
+    What came before is estimated by what was found without the beginnings, and again by what is found then."""
     needed = f"{listed(spare)} had been selected and is needed there only, to make up for that" if spare else ""
-    return (
-        "The records seem to begin in mid-loop, where a model begins at rest: until the input has passed both ends of "
-        f"its range they are off, and not later{f'; {needed}' if needed else ''}. Up to there they are simulated and "
-        "not scored; `predict` will be off there as well."
-    )
+    told = MID_LOOP.format(f"; {needed}" if needed else "")
+    measured = prepared.dataset
+    cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
+    best = cut
+    for _ in range(ESTIMATED):
+        known = pasts(*best[1].thin.fitted(best[1].final), measured)
+        again = _anew(prepared.read_as(with_pasts(measured, known), f"{told} {PAST}"), question)
+        if best is not cut and again[1].best.rmse >= BETTER * best[1].best.rmse:
+            break
+        same = again[1].best.names == best[1].best.names
+        best = again
+        if same:
+            break
+    if best[1].best.rmse > ALIKE * cut[1].best.rmse:
+        best = cut
+    return best if best[1].best.rmse <= MISFIT * best[1].selection.floor else (prepared, found)
 
 
 def _promising(laws: Comparison, several: bool) -> list[str]:

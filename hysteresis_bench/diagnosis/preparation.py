@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -48,9 +48,9 @@ class Prepared:
         """Simulated from one sample to the next; all records have the same."""
         return self.dataset.records[0].steps
 
-    def without(self, records: Callable[[Sequence[Record]], tuple[Record, ...]], note: str) -> Prepared:
-        """With records that are scored or read otherwise.  records : from all of them to what they become"""
-        dataset = replace(self.dataset, records=records(self.dataset.records))
+    def read_as(self, records: tuple[Record, ...], note: str) -> Prepared:
+        """With records that are scored or read otherwise.  records : what all of them become, in their order"""
+        dataset = replace(self.dataset, records=records)
         return replace(self, dataset=dataset, views=views_of(dataset.fitted), notes=(*self.notes, note))
 
 

@@ -1,0 +1,113 @@
+"""What came before a record: the two turning points of the input that a device in mid-loop still remembers.
+
+A model begins every record at rest. A device on a bench seldom does, and what it remembers may last to the end of a
+record whose input never passes the earlier extremes again: then no beginning that is left out helps. A law with memory
+of its extremes [1] remembers of its past the turning points that no later swing has passed, the largest first. The last
+two of them stand for all: the input went from rest to one, on to the other, and from there to where the record begins.
+They are estimated for every record, by a system that was fitted, and its past is simulated as history.
+
+[1] M. A. Krasnosel'skii, A. V. Pokrovskii, Systems with Hysteresis, Springer (1989): return-point memory.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+from typing import TypeAlias
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
+from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.preparation import thinned
+from hysteresis_bench.diagnosis.search.beginnings import without_beginnings
+from hysteresis_bench.signals import Dataset, Record
+
+Past: TypeAlias = tuple[float, float]
+"""The earlier and the later turning point, unit of the input."""
+
+BEYOND = 0.3
+"""Of the range of all inputs, how far beyond it a turning point may lie."""
+
+POINTS, CLOSER = 33, (9, 9)
+"""Turning points tried on either axis, and around the best pair between its neighbours, and once more."""
+
+LONGEST = 200
+"""Samples of the way from one turning point to the next; fewer where the record's typical step is longer."""
+
+
+def pasts(system: System, values: Array, dataset: Dataset) -> dict[str, Past]:
+    """By name of the records, what must have come before them for a fitted system to leave least: of a fitted record on
+    all of it, of a held-out one on its beginning, which is not scored.
+
+    values : (dimension,) of the fitted system, in units;  dataset : whose records have outputs
+    """
+    inputs = np.concatenate([record.input for record in dataset.fitted])
+    more = BEYOND * float(np.ptp(inputs))
+    axis = np.linspace(inputs.min() - more, inputs.max() + more, POINTS)
+    begun = thinned(views_of(without_beginnings(dataset.held_out)))
+    known = [replace(record.take(slice(record.history)), history=0) for record in begun if record.history > 1]
+    every = (*thinned(views_of(dataset.fitted)), *known)
+    return {record.name: _past(system, values, record, axis) for record in every}
+
+
+def _past(system: System, values: Array, record: Record, axis: Array) -> Past:
+    earlier = later = axis
+    for points in (*CLOSER, 0):
+        tried = np.stack(np.meshgrid(earlier, later, indexing="ij")).reshape(2, -1)
+        best = tried[:, int(np.argmin(_left(system, values, record, tried)))]
+        width = (earlier[1] - earlier[0]) * np.linspace(-1.0, 1.0, points)
+        earlier, later = best[0] + width, best[1] + width
+    return float(best[0]), float(best[1])
+
+
+def _left(system: System, values: Array, record: Record, tried: Array) -> Array:
+    """Sums of squares (tries,) that pasts (2, tries) leave of a record, all simulated as one swarm."""
+    before = with_past(record, (float(tried[0, 0]), float(tried[1, 0])))
+    signal, every = before.signal, np.repeat(values[:, None], tried.shape[1], axis=1)
+    inputs = np.repeat(signal.input, tried.shape[1], axis=1)
+    way = _way(record, tried)
+    inputs[: before.steps * way.shape[0]] = np.repeat(way, before.steps, axis=0)
+    simulated = before.at_samples(system.simulate(signal.with_input(inputs), every))
+    error = before.measured[:, None] - system.adjusted(simulated, before, every)[before.scored]
+    squares: Array = np.einsum("ij,ij->j", error, error)
+    return squares
+
+
+def _way(record: Record, pasts: Array) -> Array:
+    """From rest, where the input passes it, over both turning points to the first sample: (samples, tries)."""
+    u = record.input
+    typical = float(np.median(np.abs(np.diff(u))))
+    samples = int(np.clip(np.ptp(u) / typical, 2, LONGEST)) if typical > 0.0 else LONGEST
+    rest = [np.zeros(pasts.shape[1])] if float(u.min()) <= 0.0 <= float(u.max()) else []
+    stops = [*rest, *pasts, np.full(pasts.shape[1], u[0])]
+    return np.concatenate([np.linspace(begin, end, samples, endpoint=False) for begin, end in pairwise(stops)])
+
+
+def with_pasts(dataset: Dataset, known: Mapping[str, Past]) -> tuple[Record, ...]:
+    """The records with their pasts as history; the beginning of a held-out one is not scored."""
+    later = {record.name: record for record in (*dataset.fitted, *without_beginnings(dataset.held_out))}
+    return tuple(
+        with_past(later[name], known[name]) if name in known else later[name]
+        for name in (record.name for record in dataset.records)
+    )
+
+
+def with_past(record: Record, past: Past) -> Record:
+    """The record with the way from rest over both turning points as history; every further column begins as it is."""
+    before = _way(record, np.array(past)[:, None])[:, 0]
+    time = record.time[0] - float(np.median(np.diff(record.time))) * np.arange(before.size, 0, -1)
+
+    def longer(values: Array) -> Array:
+        return np.concatenate([np.full(before.size, values[0]), values])
+
+    return replace(
+        record,
+        time=np.concatenate([time, record.time]),
+        input=np.concatenate([before, record.input]),
+        output=None if record.output is None else longer(record.output),
+        columns={name: longer(column) for name, column in record.columns.items()},
+        history=record.history + before.size,
+    )

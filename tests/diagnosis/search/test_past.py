@@ -1,0 +1,85 @@
+"""What came before a record is estimated from what the device remembers of it."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.compose import System
+from hysteresis_bench.diagnosis.search.past import pasts, with_past, with_pasts
+from hysteresis_bench.signals import Dataset, Record
+
+PLAYS = np.array([0.3, 0.8, 1.5, 2.5])
+"""Half-widths; the device is the sum of its input and of these plays, by their definition."""
+
+LEG = 60
+"""Samples from one turning point to the next."""
+
+
+class SumOfPlays:
+    """A model: every simulation begins at rest."""
+
+    parameters, offers = (), ()
+
+    def simulate(self, signal, p):
+        y, states = np.empty_like(signal.input), np.zeros((PLAYS.size, signal.input.shape[1]))
+        for k, now in enumerate(signal.input):
+            states = np.minimum(np.maximum(states, now - PLAYS[:, None]), now + PLAYS[:, None])
+            y[k] = now + states.sum(axis=0)
+        return y
+
+
+DEVICE, VALUES = System(SumOfPlays()), np.empty(0)
+
+
+def way(*stops):
+    return np.concatenate([np.linspace(a, b, LEG, endpoint=False) for a, b in pairwise(stops)])
+
+
+def measured(name, before, after):
+    """Of the whole, from rest, what begins a third of a way after the last turning point `before`."""
+    u = way(0.0, *before, *after)
+    whole = Record(0.01 * np.arange(u.size), u, np.zeros(u.size), name)
+    output = DEVICE.respond(whole, VALUES[:, None])[:, 0]
+    begin = LEG * len(before) + LEG // 3
+    return Record(whole.time[begin:], u[begin:], output[begin:], name)
+
+
+def left(record):
+    error = record.measured - DEVICE.respond(record, VALUES[:, None])[record.scored, 0]
+    return float(np.sqrt(np.mean(error**2)))
+
+
+@pytest.mark.parametrize("before", [(4.0,), (-4.0, 3.0), (2.0, -3.5, 1.0), (3.0, -2.5, 2.0, -1.0)])
+def test_two_turning_points_stand_for_any_past(before):
+    """The record swings less than what came before: no part of it can be simulated from rest."""
+    record = measured("cut", before, (0.5, -0.5, 1.0, -1.0, 0.8))
+    wide = measured("wide", (1.0,), (5.0, -5.0, 0.0))
+    dataset = Dataset((record, wide), ())
+    ready, _ = with_pasts(dataset, pasts(DEVICE, VALUES, dataset))
+    assert left(record) > 0.3
+    assert left(ready) < 0.05
+    assert np.array_equal(ready.input[ready.scored], record.input)
+
+
+def test_a_held_out_record_tells_its_past_by_its_beginning_which_is_not_scored():
+    wide = measured("wide", (1.0,), (5.0, -5.0, 0.0))
+    held = measured("held", (3.0, -2.0), (1.5, -2.5, 2.5, 1.0, 2.0))
+    later = np.where(np.arange(held.time.size) < held.time.size // 2, held.output, 1e3)
+    spoiled = Record(held.time, held.input, later, "held")
+    estimated = [pasts(DEVICE, VALUES, Dataset((wide, one), ("held",)))["held"] for one in (held, spoiled)]
+    assert estimated[0] == estimated[1]  # what is scored is not looked at
+    _, ready = with_pasts(Dataset((wide, held), ("held",)), {"held": estimated[0]})
+    assert ready.measured.size <= held.time.size - held.time.size // 4
+    assert left(ready) < 0.05
+
+
+def test_the_past_of_a_record_is_as_fast_as_the_record_and_not_scored():
+    record = measured("cut", (4.0,), (-3.0, 3.0))
+    ready = with_past(record, (2.0, -1.0))
+    assert ready.history == ready.time.size - record.time.size
+    assert np.all(np.diff(ready.time) > 0.0)
+    steps = np.abs(np.diff(ready.input[: ready.history + 1]))
+    assert np.max(steps) <= 1.001 * np.median(np.abs(np.diff(record.input)))
+    assert np.array_equal(ready.measured, record.measured)
+    assert (ready.input[: ready.history].max(), ready.input[: ready.history].min()) == (2.0, -1.0)
