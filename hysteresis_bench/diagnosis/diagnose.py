@@ -22,7 +22,7 @@ from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
 from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
-from hysteresis_bench.diagnosis.search.past import pasts, with_pasts
+from hysteresis_bench.diagnosis.search.past import begun, pasts, with_pasts
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, NAMED
 from hysteresis_bench.errors import UserError
@@ -141,7 +141,7 @@ def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], questio
     cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
     best = cut
     for _ in range(ESTIMATED):
-        known = pasts(*best[1].thin.fitted(best[1].final), measured)
+        known = pasts(*best[1].thin.fitted(best[1].best), measured.fitted)
         again = _anew(prepared.read_as(with_pasts(measured, known), f"{told} {PAST}"), question)
         if best is not cut and again[1].best.rmse >= BETTER * best[1].best.rmse:
             break
@@ -151,6 +151,9 @@ def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], questio
             break
     if best[1].best.rmse > ALIKE * cut[1].best.rmse:
         best = cut
+    else:  # where a held-out record stands tells its past as well
+        known = known | pasts(*best[1].thin.fitted(best[1].final), begun(measured.held_out))
+        best = (prepared.read_as(with_pasts(measured, known), f"{told} {PAST}"), best[1])
     return best if best[1].best.rmse <= MISFIT * best[1].selection.floor else (prepared, found)
 
 

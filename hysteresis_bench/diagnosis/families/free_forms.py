@@ -18,14 +18,16 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
     """The system with free forms where names do not do as well; `selection` counts those as candidates from now on.
 
     found : what passed every test. The wrong formula of one effect may leave so much that the right one of another
-    explains less than what is left, and is not named: free forms are tried beside both first.
+    explains less than what is left, and is not named: free forms are tried beside both first, and are taken if no more
+    is claimed then: in the place of formulas, not beside them.
     """
     names, named = selection.candidates, selection.named(found)
     forms = selection.fitter.stack.free_forms()
     selection.forms = forms
     for start in [found, named] if found.names != named.names else [named]:
         current = _joined(selection, start, names)
-        if current is not start and current.rmse <= MISFIT * selection.floor:
+        more = start is not named and len(current.names) > len(start.names)
+        if current is not start and current.rmse <= MISFIT * selection.floor and not more:
             break
         current = named  # what even curves do not explain is the law's, and they its stand-ins
     selection.candidates = (*names, *(form for form in forms if form in current.names))

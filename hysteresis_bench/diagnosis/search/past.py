@@ -11,7 +11,7 @@ They are estimated for every record, by a system that was fitted, and its past i
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from typing import TypeAlias
@@ -38,19 +38,23 @@ LONGEST = 200
 """Samples of the way from one turning point to the next; fewer where the record's typical step is longer."""
 
 
-def pasts(system: System, values: Array, dataset: Dataset) -> dict[str, Past]:
-    """By name of the records, what must have come before them for a fitted system to leave least: of a fitted record on
-    all of it, of a held-out one on its beginning, which is not scored.
+def pasts(system: System, values: Array, records: Sequence[Record]) -> dict[str, Past]:
+    """By name of the records, what must have come before them for a fitted system to leave least.
 
-    values : (dimension,) of the fitted system, in units;  dataset : whose records have outputs
+    values : (dimension,) of the fitted system, in units;  records : with outputs
     """
-    inputs = np.concatenate([record.input for record in dataset.fitted])
+    if not records:
+        return {}
+    inputs = np.concatenate([record.input for record in records])
     more = BEYOND * float(np.ptp(inputs))
     axis = np.linspace(inputs.min() - more, inputs.max() + more, POINTS)
-    begun = thinned(views_of(without_beginnings(dataset.held_out)))
-    known = [replace(record.take(slice(record.history)), history=0) for record in begun if record.history > 1]
-    every = (*thinned(views_of(dataset.fitted)), *known)
-    return {record.name: _past(system, values, record, axis) for record in every}
+    return {record.name: _past(system, values, record, axis) for record in thinned(views_of(records))}
+
+
+def begun(records: Sequence[Record]) -> list[Record]:
+    """Their beginnings alone, by which the past of a record is estimated of which the rest is to be predicted."""
+    later = without_beginnings(records)
+    return [replace(record.take(slice(record.history)), history=0) for record in later if record.history > 1]
 
 
 def _past(system: System, values: Array, record: Record, axis: Array) -> Past:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.search.past import pasts, with_past, with_pasts
+from hysteresis_bench.diagnosis.search.past import begun, pasts, with_past, with_pasts
 from hysteresis_bench.signals import Dataset, Record
 
 PLAYS = np.array([0.3, 0.8, 1.5, 2.5])
@@ -56,7 +56,7 @@ def test_two_turning_points_stand_for_any_past(before):
     record = measured("cut", before, (0.5, -0.5, 1.0, -1.0, 0.8))
     wide = measured("wide", (1.0,), (5.0, -5.0, 0.0))
     dataset = Dataset((record, wide), ())
-    ready, _ = with_pasts(dataset, pasts(DEVICE, VALUES, dataset))
+    ready, _ = with_pasts(dataset, pasts(DEVICE, VALUES, dataset.records))
     assert left(record) > 0.3
     assert left(ready) < 0.05
     assert np.array_equal(ready.input[ready.scored], record.input)
@@ -67,7 +67,7 @@ def test_a_held_out_record_tells_its_past_by_its_beginning_which_is_not_scored()
     held = measured("held", (3.0, -2.0), (1.5, -2.5, 2.5, 1.0, 2.0))
     later = np.where(np.arange(held.time.size) < held.time.size // 2, held.output, 1e3)
     spoiled = Record(held.time, held.input, later, "held")
-    estimated = [pasts(DEVICE, VALUES, Dataset((wide, one), ("held",)))["held"] for one in (held, spoiled)]
+    estimated = [pasts(DEVICE, VALUES, begun([one]))["held"] for one in (held, spoiled)]
     assert estimated[0] == estimated[1]  # what is scored is not looked at
     _, ready = with_pasts(Dataset((wide, held), ("held",)), {"held": estimated[0]})
     assert ready.measured.size <= held.time.size - held.time.size // 4
