@@ -70,7 +70,8 @@ def lag(time: Array, u: Array, time_constant: Array) -> Array:
     samples, columns, swarm = u.shape[0], u.shape[1], time_constant.size
     v = np.empty((samples, swarm))
     constants = np.zeros(-(-swarm // FULL) * FULL)
-    constants[:swarm] = time_constant
+    for j in range(swarm):
+        constants[j] = time_constant[j]
     kept, passed, deviation = np.empty(constants.size), np.empty(constants.size), np.zeros(swarm)
     for j in range(swarm):
         v[0, j] = u[0, j if columns > 1 else 0]
@@ -150,12 +151,15 @@ def _lags(time, u, weights, time_constants, v, each, lags):  # type: ignore[no-u
         rows = np.zeros((4 * lags + 5, LANES))
         work = rows.reshape((4 * lags + 5) * LANES)
         for k in range(weights.shape[0]):
-            rows[8 + 4 * k, :used] = weights[k, first : first + used]
+            for j in range(used):
+                rows[8 + 4 * k, j] = weights[k, first + j]
         for j in range(first, first + used):
             work[BEFORE + np.uint64(j - first)] = u[0, j if u.shape[1] > 1 else 0]
             v[0, j] = u[0, j if u.shape[1] > 1 else 0]
         constants = np.zeros((time_constants.shape[0], -(-used // FULL) * FULL))
-        constants[:, :used] = time_constants[:, first : first + used]
+        for k in range(time_constants.shape[0]):
+            for j in range(used):
+                constants[k, j] = time_constants[k, first + j]
         known = 0.0
         i, even = 1, 1  # the next sample, and up to where steps are known to be equal
         while i < samples:
