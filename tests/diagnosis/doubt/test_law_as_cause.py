@@ -64,7 +64,7 @@ def test_what_another_law_explains_is_no_slow_noise(monkeypatch):
 
 
 @pytest.fixture(scope="module")
-def creeping():
+def creeping(no_free_forms):
     """A ferroelectric with creep, asked about as Bouc-Wen."""
     return found_by(data_of("ferroelectric", "creep"), "bouc-wen")
 
