@@ -13,6 +13,7 @@ os.environ.pop("PYTHONDONTWRITEBYTECODE", None)  # each of the processes that te
 
 import numpy as np
 import pytest
+from hypothesis import settings
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
@@ -24,6 +25,8 @@ from hysteresis_bench.signals import Record, read_only
 
 ROOT = Path(__file__).parents[1]
 PLUGINS = ROOT / "tests" / "test_plugins"
+settings.register_profile("compiled", deadline=None)  # a first example loads or compiles the kernel that it calls
+settings.load_profile("compiled")
 sys.path.append(str(PLUGINS))  # importlib.metadata finds its entry points there, as of any distribution
 
 

@@ -69,7 +69,7 @@ def bounded(alpha: Array, beta: Array, gamma: Array, d: Array) -> bool:
     return True
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def series(x):  # type: ignore[no-untyped-def]
     """(1 - exp(-x)) / x for |x| <= SERIES_LIMIT, in an order that a processor can overlap."""
     x2 = x * x
@@ -106,7 +106,7 @@ def _sided(work: Array, j: np.uint64, n: float) -> None:
     work[HIGH + j] = bound if h > 0.0 else 0.0
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def outside(work, j):  # type: ignore[no-untyped-def]
     """Does a lane's h want `mended`?"""
     return not ((work[H + j] >= work[LOW + j]) & (work[H + j] <= work[HIGH + j]))
@@ -140,7 +140,7 @@ def mended(work: Array, lanes: np.uint64, n: float, special: int = LANES) -> boo
     return long
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _advanced(work, j, rate, step, asked):  # type: ignore[no-untyped-def]
     """h of one lane after an increment, by the series; NaN where it is `asked` whether that is too long, and it is
     -> 1 where that wants `mended`."""

@@ -23,7 +23,7 @@ STATE, ENERGY, STEP, PART, STEPS, G = (row * LANES for row in range(10, 16))
 ROWS = 16
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _coefficients(g, largest, along, against, n, a, pinching, place, width):  # type: ignore[no-untyped-def]
     """a and b of dg/dw = a - b g;  largest : of |g| in the step."""
     share = (g - place) / width
@@ -34,7 +34,7 @@ def _coefficients(g, largest, along, against, n, a, pinching, place, width):  # 
     return a * h, a * h * (along * power if g >= 0.0 else unloading)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _relaxed(g, a, b, width):  # type: ignore[no-untyped-def]
     x = b * width
     weakened = width * series(x) if abs(x) <= SERIES_LIMIT else (1.0 - exponential(-max(x, -50.0))) / b

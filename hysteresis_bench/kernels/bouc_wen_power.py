@@ -64,7 +64,7 @@ TINY = 1e-60
 POWER = np.uint64(ROWS * LANES)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _squared_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
     rise, decay = drive * step, rate * step
     z2, bend = rise * decay, decay * h
@@ -74,7 +74,7 @@ def _squared_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
     return new if abs(z2) <= FRACTION_LIMIT else np.nan
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _cubed_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
     """The series with all its factors multiplied out."""
     rise, decay = drive * step, rate * step
@@ -88,7 +88,7 @@ def _cubed_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
     return new if abs(last) <= TOLERANCE * abs(rise) else np.nan
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _power_step(h, power, drive, rate, step, n):  # type: ignore[no-untyped-def]
     """power : |h|^(n - 1)"""
     size = abs(h)
@@ -112,7 +112,7 @@ def _power_step(h, power, drive, rate, step, n):  # type: ignore[no-untyped-def]
     return new if abs(last) <= TOLERANCE_ANY * abs(drive * step) else np.nan
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _advanced(work, j, rate, step, n, whole):  # type: ignore[no-untyped-def]
     """h of one lane after a step, NaN where that is too long;  whole : n where it is 2 or 3, else 0; a constant"""
     h, drive = work[H + j], work[DRIVE + j]
@@ -125,7 +125,7 @@ def _advanced(work, j, rate, step, n, whole):  # type: ignore[no-untyped-def]
     work[H + j] = new
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _powers(work, lanes, n, whole):  # type: ignore[no-untyped-def]
     """|h|^(n - 1) of all lanes; a loop of its own, else the others would not be vectorised."""
     if whole == 0:
@@ -133,11 +133,12 @@ def _powers(work, lanes, n, whole):  # type: ignore[no-untyped-def]
             work[POWER + j] = exponential((n - 1.0) * logarithm(abs(work[H + j])))
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _in_steps(work, lanes, n, whole, steps):  # type: ignore[no-untyped-def]
     """All lanes from OLD on in so many steps; those that want `mended` are NaN."""
     share = 1.0 / steps
-    work[H : H + lanes] = work[OLD : OLD + lanes]
+    for j in range(lanes):
+        work[H + j] = work[OLD + j]
     for _ in range(steps):
         _powers(work, lanes, n, whole)
         for j in range(lanes):
@@ -147,7 +148,7 @@ def _in_steps(work, lanes, n, whole, steps):  # type: ignore[no-untyped-def]
             work[H + j] = np.nan if outside(work, j) else new
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def _lost(work, lanes):  # type: ignore[no-untyped-def]
     """How many lanes are NaN."""
     lost = 0
@@ -156,7 +157,7 @@ def _lost(work, lanes):  # type: ignore[no-untyped-def]
     return lost
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _simulated(u, alpha, beta, gamma, d, n, whole):  # type: ignore[no-untyped-def]
     samples, swarm = u.shape[0], d.size
     shared = u.shape[1] == 1

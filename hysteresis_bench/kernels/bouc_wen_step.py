@@ -47,7 +47,7 @@ def weakened(rate: float, width: float) -> float:
     return width if rate == 0.0 else min(-math.expm1(-rate * width) / rate, HUGE)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def relaxed(g, drive, rate, seen):  # type: ignore[no-untyped-def]
     """g after an increment on which its rate does not change; seen : `weakened(rate, width)`."""
     return g + (drive - rate * g) * seen

@@ -28,7 +28,7 @@ def prepared(s: Array, j: int, alpha: float, beta: float, gamma: float, d: float
     s[SLOPE + j] = d
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _increment(s, j):  # type: ignore[no-untyped-def]
     """Width, sign of g, g before and its rate."""
     step = s[TRIAL + j] - s[Z + j]
@@ -38,7 +38,7 @@ def _increment(s, j):  # type: ignore[no-untyped-def]
     return abs(step), sign, g, against if g < 0.0 else along
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _noted(s, j, sign, g, free, wanted):  # type: ignore[no-untyped-def]
     """What a trial found, in the lanes where it is wanted."""
     found, out, before = s[FOUND + j], s[OUT + j], s[SPECIAL + j]
@@ -98,4 +98,5 @@ def tried(n: float, s: Array) -> None:
 @njit(cache=True, error_model="numpy")
 def kept(n: float, s: Array) -> None:
     """What the last trial found is the state."""
-    s[H : H + LANES] = s[FOUND : FOUND + LANES]
+    for j in range(LANES):
+        s[H + j] = s[FOUND + j]

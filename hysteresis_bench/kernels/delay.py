@@ -80,8 +80,11 @@ def _delay_unevenly(time: Array, u: Array, duration: Array, v: Array) -> None:
     origin = samples  # where the first sample stands: what lies before it has passed, the last one never does
     passing = np.full(2 * samples + few, np.inf)
     passing[: origin + 1] = -np.inf
-    passing[origin + 1 : origin + samples - 1] = time[1:-1]
-    inverse = 1.0 / (time[1:] - time[:-1])  # numba has no diff of read-only arrays
+    inverse = np.empty(samples - 1)
+    for i in range(1, samples):
+        inverse[i - 1] = 1.0 / (time[i] - time[i - 1])
+    for i in range(1, samples - 1):
+        passing[origin + i] = time[i]
     reached = np.zeros(duration.size, dtype=np.uint64)
     past, begin = np.empty(TOGETHER), np.empty(TOGETHER, dtype=np.uint64)
     for j in range(duration.size):

@@ -53,7 +53,7 @@ def _prepared(s: Array, o: int, alpha: float, beta: float, gamma: float, d: floa
     s[o + SLOPE] = d
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _until(h, inverse_drive, against):  # type: ignore[no-untyped-def]
     """The width of the increment that takes g from -|h| to 0: ln(1 + against |h| / drive) / against."""
     free = abs(h) * inverse_drive
@@ -63,7 +63,7 @@ def _until(h, inverse_drive, against):  # type: ignore[no-untyped-def]
     return until if more > 0.0 else np.inf
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _growth(g, until, drive, along, against, bound, way):  # type: ignore[no-untyped-def]
     """What an increment adds to g; dg/dw and the rate at its end."""
     behind = g < 0.0
@@ -76,7 +76,7 @@ def _growth(g, until, drive, along, against, bound, way):  # type: ignore[no-unt
     return min(max(growth, -bound - g), bound - g), pull + pull * faded, rate
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _back(value, slope, bend):  # type: ignore[no-untyped-def]
     """How far back the root is, by Halley's method."""
     return 2.0 * value * slope / (2.0 * slope * slope - value * bend)

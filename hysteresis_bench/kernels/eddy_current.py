@@ -52,7 +52,7 @@ COEFFICIENT, NEW, SLOPE, SLOPE_BEFORE, RATE, THETA, BEFORE, ALONG = ((SOLVER + r
 LOW, BELOW, HIGH, ABOVE, WAY, NARROW = ((SOLVER + row) * LANES for row in range(8, 14))
 
 
-@njit(error_model="numpy", inline="always")
+@njit(error_model="numpy", forceinline=True)
 def end_weight(x):  # type: ignore[no-untyped-def]
     """theta = 1 / (1 - exp(-x)) - 1 / x, from 1/2 at x = 0 to 1 at infinity; x : step over time constant."""
     z = x * x
@@ -102,7 +102,7 @@ def _begun(s: Array, duration: float, left: Array) -> None:
         left[g] = elsewhere
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def _value(s, g, j):  # type: ignore[no-untyped-def]
     """The equation's left side at the trial. Ours: where the law moves against its input, there is no drag."""
     rise = s[g, ALONG + j] * (s[g, OUT + j] - s[g, Y + j])

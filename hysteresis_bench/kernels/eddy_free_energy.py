@@ -90,7 +90,8 @@ def eddy_magnetization(
             s[SCALE + j] = 1.0 / (interaction[p] * math.sqrt(2.0))
             s[SLOPE + j] = slope[p]
             s[AMPLITUDE + j] = amplitude[p]
-            nodes[j, WEIGHT, : offsets.size] = weights
+            for node in range(offsets.size):
+                nodes[j, WEIGHT, node] = weights[node]
             radii(s[SCALE + j], coercive_field[p], spread[p], offsets, nodes[j, RADIUS])
             s[NEW + j] = s[TRIAL + j] = s[Z + j] = field[0, p if field.shape[1] > 1 else 0]
             s[OPEN + j] = 1.0

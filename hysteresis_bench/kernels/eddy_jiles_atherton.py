@@ -18,7 +18,7 @@ LAST, MI, D, M, RISE_D, RISE_M, FOUND_MI, FOUND_D, FOUND_M = ((LAW + row) * LANE
 WIDTH = (LAW + 15) * LANES
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _tried(s, left, clamped):  # type: ignore[no-untyped-def]
     """B where the acting field has moved on to the trial; clamped : a constant where it is called."""
     for g in range(left.size):

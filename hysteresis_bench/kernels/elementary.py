@@ -87,7 +87,7 @@ def logarithm(x):  # type: ignore[no-untyped-def]
     return exponent * LN2_HIGH + (series + exponent * LN2_LOW)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def power_of_2(x):  # type: ignore[no-untyped-def]
     """2^x, x <= 0, relative error below 1e-15; cut at 2^-1022. Two thirds of the work of `exponential`."""
     x = max(x, -1022.0)
@@ -102,7 +102,7 @@ def power_of_2(x):  # type: ignore[no-untyped-def]
     return (low + r4 * (middle + r4 * high)) * np.int64(power).view(np.float64)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _base_2(exponent, part):  # type: ignore[no-untyped-def]
     f = (part - 1.0) / (part + 1.0)
     z = f * f
@@ -112,21 +112,21 @@ def _base_2(exponent, part):  # type: ignore[no-untyped-def]
     return exponent + f * (low + (z2 * z2) * high)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def base_2_logarithm(x):  # type: ignore[no-untyped-def]
     """log_2(x) of a normal x > 0, error below 1e-15 max(1, |log_2 x|); about -1022 for 0."""
     exponent, part = _parted(x)
     return _base_2(exponent, part)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def base_2_logarithm_to_2(x):  # type: ignore[no-untyped-def]
     """log_2(x) of 1 <= x <= 2, as `base_2_logarithm` to the last bit."""
     small = x < 2.0 * ROOT_HALF
     return _base_2(0.0 if small else 1.0, x if small else 0.5 * x)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def cosine_and_sine(turns):  # type: ignore[no-untyped-def]
     """cos(2 pi x) and sin(2 pi x), error below 4e-16, |x| < 2^49: turns are reduced without rounding."""
     halves = (turns + turns + WHOLE) - WHOLE

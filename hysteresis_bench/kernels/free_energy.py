@@ -115,7 +115,8 @@ def magnetization(
     padded = -(-nodes // LANES) * LANES
     radius = np.empty(padded)
     weight = np.zeros(padded)
-    weight[:nodes] = weights
+    for node in range(nodes):
+        weight[node] = weights[node]
     state = np.empty(padded)
     term = np.empty(padded)
     magnetized = np.empty((samples, swarm))

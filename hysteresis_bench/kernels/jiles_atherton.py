@@ -60,7 +60,7 @@ def first_anhysteretic(H: float, alpha: float, a: float, M_s: float, c: float) -
     return Ma
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def extrapolated(dH, last):  # type: ignore[no-untyped-def]
     """How far to extrapolate the last changes: dH over the last dH where the direction is kept, else 0."""
     return min(dH / last, GROWTH) if dH * last > 0.0 else 0.0

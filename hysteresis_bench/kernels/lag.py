@@ -11,6 +11,7 @@ tau = 0 gives exp(-x) = 0 and a deviation of exactly 0, so that v = u to the las
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numba import njit
@@ -28,6 +29,13 @@ ROW, TWO = np.uint64(LANES), np.uint64(2 * LANES)
 
 SHORT = 0.125
 """Steps over a time constant below which the series is to the last digit."""
+
+
+def _read(u: Array) -> Array:
+    """The same numbers, only to be read: what is measured and what is computed have one kernel, not one each."""
+    view = u.view()
+    view.flags.writeable = False
+    return view
 
 
 @njit(cache=True, error_model="numpy")
@@ -59,18 +67,12 @@ def _decays_again(step, time_constant, kept, passed):  # type: ignore[no-untyped
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def lag(time: Array, u: Array, time_constant: Array) -> Array:
-    """First-order lag of every column, tau dv/dt + v = u, in static equilibrium with the first sample.
-
-    time : float64[samples]                               strictly increasing, any spacing
-    u : float64[samples, 1] or float64[samples, swarm]    input, linear between its samples
-    time_constant : float64[swarm]                        tau >= 0, unit of time; 0: v = u to the last bit
-    -> float64[samples, swarm]                            v, unit of u, within the range of u
-    """
+def _lag(time: Array, u: Array, time_constant: Array) -> Any:
     samples, columns, swarm = u.shape[0], u.shape[1], time_constant.size
     v = np.empty((samples, swarm))
     constants = np.zeros(-(-swarm // FULL) * FULL)
-    constants[:swarm] = time_constant
+    for j in range(swarm):
+        constants[j] = time_constant[j]
     kept, passed, deviation = np.empty(constants.size), np.empty(constants.size), np.zeros(swarm)
     for j in range(swarm):
         v[0, j] = u[0, j if columns > 1 else 0]
@@ -92,6 +94,18 @@ def lag(time: Array, u: Array, time_constant: Array) -> Array:
                 deviation[j] = kept[j] * deviation[j] - passed[j] * (u[i, 0] - u[i - 1, 0])
                 v[i, j] = u[i, 0] + deviation[j]
     return v
+
+
+def lag(time: Array, u: Array, time_constant: Array) -> Array:
+    """First-order lag of every column, tau dv/dt + v = u, in static equilibrium with the first sample.
+
+    time : float64[samples]                               strictly increasing, any spacing
+    u : float64[samples, 1] or float64[samples, swarm]    input, linear between its samples
+    time_constant : float64[swarm]                        tau >= 0, unit of time; 0: v = u to the last bit
+    -> float64[samples, swarm]                            v, unit of u, within the range of u
+    """
+    behind: Array = _lag(_read(time), _read(u), time_constant)
+    return behind
 
 
 @njit(inline="always", error_model="numpy", fastmath={"contract"})
@@ -150,12 +164,15 @@ def _lags(time, u, weights, time_constants, v, each, lags):  # type: ignore[no-u
         rows = np.zeros((4 * lags + 5, LANES))
         work = rows.reshape((4 * lags + 5) * LANES)
         for k in range(weights.shape[0]):
-            rows[8 + 4 * k, :used] = weights[k, first : first + used]
+            for j in range(used):
+                rows[8 + 4 * k, j] = weights[k, first + j]
         for j in range(first, first + used):
             work[BEFORE + np.uint64(j - first)] = u[0, j if u.shape[1] > 1 else 0]
             v[0, j] = u[0, j if u.shape[1] > 1 else 0]
         constants = np.zeros((time_constants.shape[0], -(-used // FULL) * FULL))
-        constants[:, :used] = time_constants[:, first : first + used]
+        for k in range(time_constants.shape[0]):
+            for j in range(used):
+                constants[k, j] = time_constants[k, first + j]
         known = 0.0
         i, even = 1, 1  # the next sample, and up to where steps are known to be equal
         while i < samples:
@@ -207,13 +224,6 @@ def _seven_weighted(time: Array, u: Array, weights: Array, time_constants: Array
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
 def _any_weighted(time: Array, u: Array, weights: Array, time_constants: Array, v: Array) -> None:
     _lags(time, u, weights, time_constants, v, True, time_constants.shape[0])
-
-
-def _read(u: Array) -> Array:
-    """The same numbers, only to be read: a signal's and a response's then have one compiled kernel, which takes 5 s."""
-    view = u.view()
-    view.flags.writeable = False
-    return view
 
 
 def late_response(time: Array, u: Array, share: Array, time_constants: Array, out: Array | None = None) -> Array:

@@ -19,7 +19,7 @@ from numba import njit
 from hysteresis_bench.arrays import Array
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def _excess(stiction, velocity, slowest):  # type: ignore[no-untyped-def]
     """r(v)."""
     share = velocity / slowest

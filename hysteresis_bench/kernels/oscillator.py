@@ -76,7 +76,8 @@ def _one_by_one(law, states, s):  # type: ignore[no-untyped-def]
 @njit(cache=True, error_model="numpy")
 def _kept(states: int, s: Array) -> None:
     own = s[LAW * LANES :]
-    own[: states * LANES] = own[states * LANES : 2 * states * LANES]
+    for place in range(states * LANES):
+        own[place] = own[states * LANES + place]
 
 
 @njit(cache=True, error_model="numpy")

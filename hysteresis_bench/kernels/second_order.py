@@ -87,7 +87,7 @@ def modes(step: float, u: Array, frequency: float, dampings: Array) -> Array:
     return found
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _advanced(work, j, slope):  # type: ignore[no-untyped-def]
     """The deviation of one lane a sample on."""
     e, v = work[DEVIATION + j], work[VELOCITY + j]
@@ -97,7 +97,7 @@ def _advanced(work, j, slope):  # type: ignore[no-untyped-def]
     return after
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _side_by_side(time, u, damping, stiffness, bound, y, first):  # type: ignore[no-untyped-def]
     """As `second_order`, for the LANES stages from `first` on, into y. bound : of a deviation, may be infinite
 

@@ -119,9 +119,9 @@ def f_test(errors: Parts, columns: Parts, nuisance: Parts | None = None, level: 
 
 def f_tail(statistic: float, above: float, below: float) -> float:
     """P(F > statistic); at least 4 degrees of freedom below, where the estimate of their number is rough."""
-    from scipy.stats import f
+    from scipy.special import fdtrc
 
-    return float(f.sf(max(statistic, 0.0), above, max(below, 4.0)))
+    return float(fdtrc(above, max(below, 4.0), max(statistic, 0.0)))
 
 
 def constants(errors: Parts) -> list[Array]:

@@ -38,7 +38,7 @@ def line(residual: Array, step: float) -> Line:
     that the background may be coloured. residual : (samples,), step : sampling interval
     """
     from scipy.ndimage import median_filter
-    from scipy.stats import f
+    from scipy.special import fdtrc
 
     e = residual - residual.mean()
     power = np.abs(np.fft.rfft(e))[1:-1] ** 2
@@ -48,7 +48,7 @@ def line(residual: Array, step: float) -> Line:
     median = median_filter(flat, 2 * BACKGROUND + 1, mode="reflect")
     ratio = flat * np.log(2.0) / np.maximum(median, 1e-12 * flat.max() + 1e-300)
     peak = int(np.argmax(ratio))
-    single = float(f.sf(ratio[peak], 2.0, 2.0 * BACKGROUND))  # a median of exponentials is worth half its number
+    single = float(fdtrc(2.0, 2.0 * BACKGROUND, ratio[peak]))  # a median of exponentials is worth half its number
     near = slice(max(0, peak - 1), peak + 2)
     share = float(power[near].sum() / max(power.sum(), 1e-300))
     return Line(float(ratio[peak]), _largest_of(power.size, single), share, float(bins[peak] / (e.size * step)))

@@ -121,7 +121,7 @@ def judged(course: Course, rows: Array, left: Array, beside: float) -> tuple[flo
 
     rows : (functions, samples) of the output;  left : their values;  beside : expected beside the noise
     """
-    from scipy.stats import f
+    from scipy.special import fdtrc
 
     covariance = course.noise.covariance(rows)
     mean, square = float(np.trace(covariance)), float(np.sum(covariance**2))
@@ -130,7 +130,7 @@ def judged(course: Course, rows: Array, left: Array, beside: float) -> tuple[flo
     expected = mean + beside
     if expected <= 0.0:
         return (1.0, 0.0) if total == 0.0 else (0.0, total)
-    return float(f.sf(total / expected, freedom, course.noise.freedom)), max(total - expected, 0.0)
+    return float(fdtrc(freedom, course.noise.freedom, total / expected)), max(total - expected, 0.0)
 
 
 def _comparable(cells: Sequence[Cell]) -> list[Cell]:

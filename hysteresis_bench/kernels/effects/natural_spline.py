@@ -66,12 +66,12 @@ def natural_splines(low: Array, high: Array, *, knots: tuple[float, ...], ordina
     return Curves(low, scale, extremes, np.array(knots), pieces)
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _cubic(pieces, k, j, z):  # type: ignore[no-untyped-def]
     return pieces[k, 0, j] + z * (pieces[k, 1, j] + z * (pieces[k, 2, j] + z * pieces[k, 3, j]))
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy")
 def _piece(knots, z):  # type: ignore[no-untyped-def]
     """In which z lies: how many knots are below it."""
     k = 0
@@ -80,7 +80,7 @@ def _piece(knots, z):  # type: ignore[no-untyped-def]
     return k
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def splines_at(x, low, scale, extremes, knots, pieces, out):  # type: ignore[no-untyped-def]
     """All curves at one abscissa, into out, float64[swarm]; the others as in `Curves`."""
     nearest, furthest = x - extremes[1], x - extremes[0]

@@ -11,7 +11,7 @@ ORDERS = 7
 """Powers of the input: known to the compiler, which unrolls the loop over them."""
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _mean(before, now, currents, j):  # type: ignore[no-untyped-def]
     """Of the current, along a straight line: that of z^k is the sum of z_0^(k - m) z_1^m, over k + 1."""
     total, powers, last = 0.0, 1.0, 1.0

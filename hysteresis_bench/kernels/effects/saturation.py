@@ -13,7 +13,7 @@ WHOLE = 8
 """Columns that go side by side; of what is left over, the samples do, or a vector would be left half empty."""
 
 
-@njit(inline="always", error_model="numpy", fastmath={"contract"})
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _bent(x, inverse_level, level, sharpness, softness):  # type: ignore[no-untyped-def]
     excess = abs(inverse_level * x)
     # the power of the smaller of excess and 1 / excess, so that it does not overflow
@@ -41,4 +41,5 @@ def saturate(y: Array, inverse_level: Array, sharpness: Array) -> None:
         column = y[:, j].copy()
         for i in range(samples):
             column[i] = _bent(column[i], inverse_level[j], level[j], sharpness[j], softness[j])
-        y[:, j] = column
+        for i in range(samples):
+            y[i, j] = column[i]

@@ -86,8 +86,9 @@ class EnergyBased(Model):
 
         pinned = p.pinning * np.exp(p.spread * self._quantiles[:, None])
         pinning = np.concatenate([np.zeros((1, p.a.size)), pinned])
-        share = np.broadcast_to((1.0 - p.reversible) / self.cells, pinned.shape)
-        magnetized = energy_based(signal.input, p.a, p.coupling, pinning, np.concatenate([p.reversible[None], share]))
+        shares = np.empty(pinning.shape)
+        shares[0], shares[1:] = p.reversible, (1.0 - p.reversible) / self.cells
+        magnetized = energy_based(signal.input, p.a, p.coupling, pinning, shares)
         magnetized *= p.M_s
         magnetized += p.slope * signal.input
         return magnetized

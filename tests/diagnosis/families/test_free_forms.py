@@ -15,7 +15,7 @@ from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 from hysteresis_bench.signals import joined
 from hysteresis_plugins.effects import drift
 
-FITTED = ("slow", "fast", "nested", "sweep")
+FITTED = ("slow", "nested")
 X = np.linspace(0.0, 1.0, 50)
 
 

@@ -21,7 +21,7 @@ LINEAR = 2.0
 
 def area_growth(course: Course) -> Finding:
     """The exponent b of area ~ amplitude^b, and whether it is other than 2, as where the loop merely scales."""
-    from scipy.stats import t
+    from scipy.special import stdtr
 
     found = [loop for number in range(len(course.views)) for loop in loops(course, number)]
     sizes = np.array([size for size, _, _ in found])
@@ -46,7 +46,7 @@ def area_growth(course: Course) -> Finding:
     covariance = np.linalg.pinv((design * weight[:, None]).T @ (design * weight[:, None]))
     scatter = max(1.0, float(left @ left) / max(degrees, 1))
     exponent, error = float(solution[0]), float(np.sqrt(covariance[0, 0] * scatter))
-    p = float(2.0 * t.sf(abs(exponent - LINEAR) / error, max(degrees, 1)))
+    p = float(2.0 * stdtr(max(degrees, 1), -abs(exponent - LINEAR) / error))
     order = np.argsort(x)
     curve = Curve(np.exp(x[order]), np.exp(y[order]))
     words = f"the area grows with the amplitude to the power {exponent:.2g} ± {error:.1g}: {_regime(exponent)}."

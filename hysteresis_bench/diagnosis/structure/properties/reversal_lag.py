@@ -26,7 +26,7 @@ BENDS = (0.02, 0.05, 0.1, 0.2, 0.4)
 def reversal_lag(course: Course) -> Finding:
     """One delay for all reversals against none, and against what needs no time: a clearance, a path that is gone
     without an answer, or a force that turns over along a short way."""
-    from scipy.stats import f
+    from scipy.special import fdtrc
 
     if not all(view.record.timed for view in course.views):
         return Finding("reversal lag", "Time is only an index here: a lag cannot be told.")
@@ -47,7 +47,7 @@ def reversal_lag(course: Course) -> Finding:
     gain = min(none, loose, bends) - late[best]
     slow = sum(v * (1.0 + d) / (1.0 - d) for d, v in zip(course.noise.decays, course.noise.variances, strict=True))
     unit = max(late[best], floor) / degrees * max(slow / max(sum(course.noise.variances), 1e-300), 1.0)
-    p = float(f.sf(max(gain, 0.0) / unit, 1.0, max(degrees, 4)))
+    p = float(fdtrc(1.0, max(degrees, 4), max(gain, 0.0) / unit))
     lag = float(lags[best]) * step if p < LEVEL else 0.0
     moved = 100.0 * np.sqrt(max(gain, 0.0) / sum(window.stop - window.start for window in windows)) / course.span_y
     if p < LEVEL:

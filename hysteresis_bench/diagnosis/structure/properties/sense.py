@@ -25,7 +25,7 @@ COARSE = 0.3
 
 def sense(course: Course) -> Finding:
     """The sign of the area that the loops of every record enclose, over the rectangle around them."""
-    from scipy.stats import norm
+    from scipy.special import ndtr
 
     areas, errors, records = [], [], []
     for number in range(len(course.views)):
@@ -40,9 +40,9 @@ def sense(course: Course) -> Finding:
     box = course.span_u * course.span_y
     slack = THIN * box
     z = [abs(area) / np.hypot(error, slack) for area, error in zip(areas, errors, strict=True)]
-    signs = [int(np.sign(area)) if 2.0 * norm.sf(one) < LEVEL else 0 for area, one in zip(areas, z, strict=True)]
+    signs = [int(np.sign(area)) if 2.0 * ndtr(-one) < LEVEL else 0 for area, one in zip(areas, z, strict=True)]
     strongest = int(np.argmax(z))
-    p, share = float(2.0 * norm.sf(z[strongest])), 100.0 * areas[strongest] / box
+    p, share = float(2.0 * ndtr(-z[strongest])), 100.0 * areas[strongest] / box
     mixed = {-1, 1} <= {*signs}
     words = _words(signs, records, share, p)
     return Finding(

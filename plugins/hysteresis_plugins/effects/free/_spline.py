@@ -13,6 +13,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import read_only
 
 if TYPE_CHECKING:
     from hysteresis_bench.kernels.effects.natural_spline import Curves
@@ -71,9 +72,9 @@ def add(y: Array, x: Array, curves: Curves) -> None:
     from hysteresis_bench.kernels.effects.natural_spline import add_spline, add_spline_of_own
 
     if x.shape[1] > 1:
-        add_spline_of_own(y, x, curves)
+        add_spline_of_own(y, read_only(x), curves)
     else:
-        add_spline(y, x[:, 0], curves)
+        add_spline(y, read_only(x[:, 0]), curves)
 
 
 def scale(y: Array, x: Array, curves: Curves) -> None:
@@ -82,10 +83,10 @@ def scale(y: Array, x: Array, curves: Curves) -> None:
 
     if x.shape[1] > 1:
         factor = np.ones_like(y)
-        add_spline_of_own(factor, x, curves)
+        add_spline_of_own(factor, read_only(x), curves)
         y *= factor
     else:
-        scale_by_spline(y, x[:, 0], curves)
+        scale_by_spline(y, read_only(x[:, 0]), curves)
 
 
 def early(prefix: str) -> Spline:

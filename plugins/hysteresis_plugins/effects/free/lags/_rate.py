@@ -10,7 +10,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.free_forms import Curve
 from hysteresis_bench.parameters import Parameter
-from hysteresis_bench.signals import Record
+from hysteresis_bench.signals import Record, read_only
 from hysteresis_plugins.effects._ranges import fastest, longest
 from hysteresis_plugins.effects.free._spline import POINTS
 
@@ -50,7 +50,7 @@ def behind(time: Array, values: Array, p: Any) -> Array:
     """What follows a signal, (samples, swarm)."""
     from hysteresis_bench.kernels.lag_curve import lag_curve
 
-    return lag_curve(time, values, p.bend, constants(p))
+    return lag_curve(time, read_only(values), p.bend, constants(p))
 
 
 def box(own: Sequence[Parameter], records: Sequence[Record], unit: float) -> tuple[Parameter, ...]:
