@@ -23,7 +23,7 @@ def few_laws():
 @contextmanager
 def _names_only() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(search, "with_free_forms", lambda selection, named: named)
+        patch.setattr(search, "with_free_forms", lambda selection, found: selection.named(found))
         yield
 
 
