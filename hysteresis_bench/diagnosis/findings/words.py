@@ -124,7 +124,7 @@ def headline(outcome: Outcome) -> str:
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
-    elif outcome.doubt.agreement and outcome.stand_ins:
+    elif (outcome.doubt.agreement or outcome.doubt.untested) and outcome.stand_ins:
         said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
     elif outcome.cause and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
@@ -189,11 +189,19 @@ def _times(outcome: Outcome) -> str:
     return f"{rounded(held_out)} times the noise on what was held out, and {rounded(fitted)} times on what was fitted"
 
 
-def _gave_up(fallback: Fallback) -> str:
+def _gave_up(fallback: Fallback, floor: float) -> str:
     were, them = ("was", "it") if len(fallback.dropped) == 1 else ("were", "them")
+    said = f"{listed(fallback.dropped)} had been selected and {were} given up:"
+    if not fallback.tested:
+        return (
+            f"{said} no part of what was fitted is an excitation of its own that could be left out to test {them}, and "
+            f"with {them} the law still leaves {rounded(fallback.selected / floor)} times the noise (without: "
+            f"{rounded(fallback.bare / floor)}). Fit a second record, of another amplitude or speed."
+        )
+    worse = f" {listed(fallback.worse_on)} was predicted clearly worse with than without." if fallback.worse_on else ""
     return (
-        f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the "
-        f"RMSE was {fallback.selected:.3g} with {them} and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
+        f"{said} on what was left out of the fits in turn the RMSE was {fallback.selected:.3g} with {them} and "
+        f"{fallback.kept:.3g} without (bare: {fallback.bare:.3g}).{worse}"
     )
 
 
@@ -203,7 +211,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     records = found.full.stack.records
     said = list(advice_with(found.full.stack.model, final.names, records))
     if found.given_up:
-        said.insert(0, _gave_up(found.given_up))
+        said.insert(0, _gave_up(found.given_up, floor))
     if not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):

@@ -16,7 +16,7 @@ from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
-from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, unseen_rmse
+from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
@@ -117,16 +117,22 @@ def _ending_with(found: Found, best: Hypothesis) -> Found:
     one."""
     selection, base = found.selection, found.base
     order = _in_order(selection, base, best)
-    given_up = fall_back(found.thin, base, order)
+    given_up = fall_back(found.thin, base, order, selection.floor)
     if given_up:
         order = order[: len(order) - len(given_up.dropped)]
         best = order[-1][1] if order else base
+    without = {name: selection.without(best, name) for name in selection.adopted(best)}
+    while worse := misleading(found.thin, base, best, without, selection.floor):
+        best = without[worse.dropped[0]]
+        given_up = worse if given_up is None else given_up.and_then(worse)
+        without = {name: selection.without(best, name) for name in selection.adopted(best)}
+        order = _in_order(selection, base, best)
     return replace(
         found,
         best=best,
         final=with_simplest_offset(selection, best),
         rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
-        without={name: selection.without(best, name) for name in selection.adopted(best)},
+        without=without,
         order=order,
         given_up=given_up,
     )
