@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
-from hysteresis_bench.diagnosis.findings.stages import Stage
+from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.between_samples import TELLING, between_samples
 from hysteresis_bench.diagnosis.search.fallback import Fallback
@@ -59,11 +59,17 @@ class Outcome:
         return before is None or after is None or after.rmse <= before.rmse
 
     @property
+    def refuted(self) -> bool:
+        """Does what was held out contradict what was adopted?"""
+        return refuted(self.before, self.after, self.evidence.floor)
+
+    @property
     def stand_ins(self) -> tuple[str, ...]:
-        """Of what was adopted, what only stands in for the law. An offset for all records is a finding only where
-        nothing else is left, and no curve, whose zero is as it happens, was needed."""
+        """Of what was adopted, what only stands in for the law: all of it where what was held out contradicts it. An
+        offset for all records is a finding only where nothing else is left, and no curve, whose zero is as it happens,
+        was needed."""
         names = [name for name in self.adopted if name != registry.DESCRIPTION]
-        spare = {*names} - {*self.doubt.holding(names)}
+        spare = {*names} - {*(() if self.refuted else self.doubt.holding(names))}
         if self.unexplained or forms_of(tuple(names)):
             spare.add(registry.COMMON_OFFSET)
         return tuple(name for name in self.adopted if name in spare)
@@ -124,6 +130,8 @@ def headline(outcome: Outcome) -> str:
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
+    elif outcome.refuted and outcome.stand_ins:
+        said = f"No effect is named, as what helps on what was fitted does not carry over: with it, {moved}"
     elif (outcome.doubt.agreement or outcome.doubt.untested) and outcome.stand_ins:
         said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
     elif outcome.cause and outcome.stand_ins:
@@ -190,7 +198,7 @@ def _times(outcome: Outcome) -> str:
 
 
 def _gave_up(fallback: Fallback, floor: float) -> str:
-    were, them = ("was", "it") if len(fallback.dropped) == 1 else ("were", "them")
+    were, them = _were(fallback.dropped)
     said = f"{listed(fallback.dropped)} had been selected and {were} given up:"
     if not fallback.tested:
         return (
@@ -205,6 +213,10 @@ def _gave_up(fallback: Fallback, floor: float) -> str:
     )
 
 
+def _were(names: Sequence[str]) -> tuple[str, str]:
+    return ("was", "it") if len(names) == 1 else ("were", "them")
+
+
 def warnings(outcome: Outcome) -> tuple[str, ...]:
     """What a user must know before believing the names."""
     found, final, after, floor = outcome.found, outcome.found.final, outcome.after, outcome.evidence.floor
@@ -212,7 +224,11 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     said = list(advice_with(found.full.stack.model, final.names, records))
     if found.given_up:
         said.insert(0, _gave_up(found.given_up, floor))
-    if not outcome.carries_over:
+    if outcome.refuted and outcome.stand_ins:
+        were, them = _were(outcome.stand_ins)
+        selected = f"{listed(outcome.stand_ins)} {were} selected on what was fitted, and {were} not named"
+        said.insert(0, f"{selected}: what was held out is predicted worse with {them} than by the bare model.")
+    elif not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
         said.append(
