@@ -17,7 +17,7 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.diagnosis.search.search import Found, with_more
+from hysteresis_bench.diagnosis.search.search import Found, with_fewer, with_more
 from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
 
 SCREENED = 1000
@@ -102,6 +102,9 @@ def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
         left = [name for name in selection.candidates if name not in found.best.names]
         found = with_more(found, [[one for one in left if alike(one, name)] for name in lacking])
         held = doubted.holding(tuple(found.rivals))
+        # what may stand in for the law stays where it helps to predict; of one loop nobody knows
+        if not found.thin.excitations.apart and (spare := [name for name in found.rivals if name not in held]):
+            found = with_fewer(found, spare)
         rivals = {
             name: {
                 other: system

@@ -199,12 +199,14 @@ def _times(outcome: Outcome) -> str:
 
 def _gave_up(fallback: Fallback, floor: float) -> str:
     were, them = _were(fallback.dropped)
+    they = "it" if them == "it" else "they"
     said = f"{listed(fallback.dropped)} had been selected and {were} given up:"
     if not fallback.tested:
+        with_them, without = (f"{rounded(left / floor)} times the noise" for left in (fallback.selected, fallback.kept))
         return (
             f"{said} no part of what was fitted is an excitation of its own that could be left out to test {them}, and "
-            f"with {them} the law still leaves {rounded(fallback.selected / floor)} times the noise (without: "
-            f"{rounded(fallback.bare / floor)}). Fit a second record, of another amplitude or speed."
+            f"{they} may make up for the law, which leaves {with_them} with {them} and {without} without. Fit a second "
+            f"record, of another amplitude or speed."
         )
     worse = f" {listed(fallback.worse_on)} was predicted clearly worse with than without." if fallback.worse_on else ""
     return (

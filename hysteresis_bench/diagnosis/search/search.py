@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
@@ -110,6 +111,17 @@ def with_more(found: Found, asked: Sequence[Sequence[str]]) -> Found:
             (more,) = selection.workers.map([("refitted", selection.simplest(needed))])
             best = more if unseen_rmse(found.thin, more) < unseen_rmse(found.thin, best) else best
     return found if best is found.best else replace(_ending_with(found, best), given_up=found.given_up)
+
+
+def with_fewer(found: Found, names: Sequence[str]) -> Found:
+    """Without these adopted effects, which nothing could test."""
+    best = found.best
+    for name in names:
+        best = found.selection.without(best, name)
+    ended = _ending_with(found, best)
+    untested = Fallback(tuple(names), found.best.rmse, ended.best.rmse, found.base.rmse, tested=False)
+    before = [one for one in (found.given_up, untested, ended.given_up) if one is not None]
+    return replace(ended, given_up=reduce(Fallback.and_then, before))
 
 
 def _ending_with(found: Found, best: Hypothesis) -> Found:

@@ -104,7 +104,7 @@ def test_what_nothing_could_test_is_given_up_aloud():
     untested = Fallback(("creep", "saturation"), 0.4, 1.1, 1.1, tested=False)
     (said, *_) = warnings(outcome_of((), {}, given_up=untested))
     assert "creep and saturation had been selected and were given up" in said
-    assert "still leaves 4 times the noise (without: 11)" in said
+    assert "which leaves 4 times the noise with them and 11 times the noise without" in said
     worse = Fallback(("creep",), 0.2, 0.21, 0.3, worse_on=("slow",))
     (said, *_) = warnings(outcome_of((), {}, given_up=worse))
     assert "was 0.2 with it and 0.21 without (bare: 0.3). slow was predicted clearly worse with than without." in said
