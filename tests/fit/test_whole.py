@@ -88,4 +88,12 @@ def test_nothing_of_a_lone_loop_can_be_left_out(periods):
     u = np.sin(np.linspace(0.0, 2.0 * np.pi * periods, 300))
     found = excitations([Record(np.arange(300.0), u, u)])
     assert found.apart == ()
-    assert not found.varied
+    assert found.only_one
+
+
+def test_a_short_record_of_several_amplitudes_is_more_than_one_loop():
+    phase = np.linspace(0.0, 2.5, 500)
+    u = np.linspace(1.0, 0.3, phase.size) * np.sin(2.0 * np.pi * phase)
+    found = excitations([Record(phase, u, u)])
+    assert found.apart == ()
+    assert not found.only_one

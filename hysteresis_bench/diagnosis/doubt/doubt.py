@@ -103,7 +103,7 @@ def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
         found = with_more(found, [[one for one in left if alike(one, name)] for name in lacking])
         held = doubted.holding(tuple(found.rivals))
         # what may stand in for the law stays where it helps to predict; of one loop nobody knows
-        if not found.thin.excitations.apart and (spare := [name for name in found.rivals if name not in held]):
+        if found.thin.excitations.only_one and (spare := [name for name in found.rivals if name not in held]):
             found = with_fewer(found, spare)
         rivals = {
             name: {

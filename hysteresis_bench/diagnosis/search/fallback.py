@@ -5,9 +5,8 @@ Held-out records have no part in this; only fitted excitations are left out in t
 1. The bare model, and the systems that grow from it by one adopted effect after the other, predict what was left out.
    Where the last one does worse than the bare model, the one that does it best is kept.
 2. An effect with which any excitation between the others is predicted clearly worse than without it leaves.
-3. Of a lone record without parts of their own, such as one loop, nothing can be left out. What follows such a path
-   better may be any curve, and a law that does not come down to the noise asks for one. Effects stay there only if with
-   them the noise is nearly reached: that the law fails cannot be what they make up for then.
+3. Of one loop nothing can be left out. What follows such a path better may be any curve, and a law that does not come
+   down to the noise asks for one. Effects stay there only if with them the noise is nearly reached.
 """
 
 from __future__ import annotations
@@ -58,8 +57,8 @@ Grown = Sequence[tuple[str, Hypothesis]]
 
 
 def fall_back(fitter: Fitter, base: Hypothesis, order: Grown, floor: float) -> Fallback | None:
-    """None where the last system predicts no worse than the bare model, or where nothing can be left out and it leaves
-    about the noise.
+    """None where the last system predicts no worse than the bare model, or where nothing can be left out, unless of one
+    loop it leaves much more than the noise.
 
     order : the adopted effects, each with the system that it completes, the last one the selected system
     floor : RMS that a perfect model leaves
@@ -67,9 +66,11 @@ def fall_back(fitter: Fitter, base: Hypothesis, order: Grown, floor: float) -> F
     if not order:
         return None
     last = order[-1][1]
-    if not fitter.excitations.apart:
+    if fitter.excitations.only_one:
         names = tuple(name for name, _ in order)
         return Fallback(names, last.rmse, base.rmse, base.rmse, tested=False) if last.rmse > WRONG * floor else None
+    if not fitter.excitations.apart:
+        return None
     selected, bare = _predicted(fitter, last), _predicted(fitter, base)
     if selected <= bare:
         return None

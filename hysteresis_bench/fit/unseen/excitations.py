@@ -2,7 +2,8 @@
 
 Of several records each is one. Of a lone record a part that holds a cycle is one, where its input stays in the range of
 the other parts; one that goes further says how a law extrapolates. One loop holds none: whatever is left out of it lies
-on the very path that was fitted, so that blocks of it are no evidence for other excitations.
+on the very path that was fitted, so that blocks of it are no evidence for other excitations. Blocks of a short record
+whose amplitude or frequency changes are some: each has its own.
 """
 
 from __future__ import annotations
@@ -37,6 +38,11 @@ class Excitations:
     apart: tuple[int, ...]
     inner: tuple[int, ...]
     varied: bool
+
+    @property
+    def only_one(self) -> bool:
+        """Is there one loop, of one amplitude and frequency, of which nothing can be left out?"""
+        return not (self.apart or self.varied)
 
     @property
     def counted(self) -> Array:
