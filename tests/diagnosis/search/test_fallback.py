@@ -8,7 +8,10 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
+from hysteresis_bench.diagnosis.search.search import Found, with_fewer
+from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.signals import Record
 
 TRUE = {"alpha": 0.3, "beta": 0.6, "gamma": 0.2, "d": 1.0}
@@ -83,6 +86,34 @@ def test_one_loop_leaves_nothing_out_and_names_nothing_far_from_the_noise():
     assert fall_back(fitter, base, order, left / 1.9) is None
     found = fall_back(fitter, base, order, left / 2.1)
     assert found == Fallback(("saturation",), left, base.rmse, base.rmse, tested=False)
+
+
+def test_what_may_stand_in_for_the_law_leaves_where_one_loop_cannot_tell():
+    """Also where the noise is reached with it."""
+    loop = one_loop()
+    fitter = lone(loop, np.tanh(0.8 * bare_output(loop)) + 0.15 * loop.input**3 / 64.0, "dahl")
+    base, order = grown(fitter, "saturation")
+    best = order[-1][1]
+    selection = Selection(fitter, Workers(fitter, 1), best.rmse, ("saturation",))
+    found = Found(
+        full=fitter,
+        thin=fitter,
+        evidence=None,
+        selection=selection,
+        base=base,
+        best=best,
+        final=best,
+        follows=True,
+        order=tuple(order),
+        given_up=None,
+        rivals={"saturation": {}},
+        without={},
+        impossible={},
+    )
+    fewer = with_fewer(found, ["saturation"])
+    assert selection.adopted(fewer.best) == ()
+    assert fewer.order == ()
+    assert fewer.given_up == Fallback(("saturation",), best.rmse, fewer.best.rmse, base.rmse, tested=False)
 
 
 def test_what_makes_one_excitation_worse_leaves_though_it_helps_on_the_whole():
