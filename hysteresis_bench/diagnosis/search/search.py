@@ -36,7 +36,7 @@ class Found:
     base : the bare model with each record's offset;  best : what was selected, with each record's offset
     final : the same with the simplest offset;  follows : does the response to the input explain the output?
     order : the adopted effects, the one that helps most first, each with the system that it completes
-    given_up : what predicted excitations left out worse than the bare model
+    given_up : what predicted excitations left out worse, or what one loop cannot test
     rivals : for each adopted effect, what would do as well in its place, and that system
     without : for each adopted effect, the selected system without it
     impossible : effects that cannot be tried, with the reason
