@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hysteresis_bench.fit.unseen.excitations import excitations
 from hysteresis_bench.fit.unseen.whole import last_part, left_out
 from hysteresis_bench.signals import Record
 
@@ -62,3 +63,37 @@ def test_the_last_part_goes_little_further_than_what_comes_before():
     assert last.any()
     assert np.ptp(growing.input) <= 1.6 * np.ptp(growing.input[~last])
     assert last.sum() < 400
+
+
+def test_every_record_is_an_excitation_and_those_between_the_others_are_inner():
+    found = excitations([record(amplitude, str(amplitude)) for amplitude in (1.0, 8.0, 2.0, 4.0)])
+    assert found.apart == (0, 1, 2, 3)
+    assert found.inner == (2, 3), "one more is smaller, one larger, than all others"
+    assert found.varied
+    assert found.counted.all()
+
+
+@pytest.mark.parametrize(("amplitude", "varied"), [(2.0, False), (np.linspace(2.0, 0.2, TIME.size), True)])
+def test_cycles_of_a_lone_record_are_excitations_of_one_kind_or_of_several(amplitude, varied):
+    found = excitations([record(amplitude, "alone")])
+    assert len(found.apart) > 1
+    assert not found.inner
+    assert found.varied == varied
+    assert found.counted.mean() > 0.6
+
+
+@pytest.mark.parametrize("periods", [1.0, 2.0])
+def test_nothing_of_a_lone_loop_can_be_left_out(periods):
+    """Nor of two: a half that begins in the middle does not cross it often enough."""
+    u = np.sin(np.linspace(0.0, 2.0 * np.pi * periods, 300))
+    found = excitations([Record(np.arange(300.0), u, u)])
+    assert found.apart == ()
+    assert found.only_one
+
+
+def test_a_short_record_of_several_amplitudes_is_more_than_one_loop():
+    phase = np.linspace(0.0, 2.5, 500)
+    u = np.linspace(1.0, 0.3, phase.size) * np.sin(2.0 * np.pi * phase)
+    found = excitations([Record(phase, u, u)])
+    assert found.apart == ()
+    assert not found.only_one

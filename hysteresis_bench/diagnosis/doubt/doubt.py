@@ -17,7 +17,7 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.diagnosis.search.search import Found, with_more
+from hysteresis_bench.diagnosis.search.search import Found, with_fewer, with_more
 from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
 
 SCREENED = 1000
@@ -27,10 +27,13 @@ in 0.9 and in 1.4 times the time."""
 
 @dataclass(frozen=True)
 class Doubt:
-    """cause : the law that does clearly better;  agreement : of the laws, where none leaves about the noise"""
+    """cause : the law that does clearly better;  agreement : of the laws, where none leaves about the noise
+    untested : far from the noise, only one excitation speaks for what was adopted, of one amplitude and frequency
+    """
 
     cause: Cause | None = None
     agreement: Agreement | None = None
+    untested: bool = False
 
     def asks_for(self, adopted: Sequence[str]) -> list[str]:
         """Effects that are needed, and for which nothing alike was adopted."""
@@ -76,17 +79,18 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     around = OtherLaws(asked, stack, few, _in_question(found), floor, options.seed)
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
+        untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
         wrong = found.final.rmse > WRONG * floor or final.rmse > MISFIT * floor
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
         cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= MISFIT * floor):
-            return Doubt(cause)
+            return Doubt(cause, untested=untested)
         (own,) = workers.map([("needy", asked)])
         good = [one.model for one in screened if one.rmse <= own.rmse and _is_rate_independent(one.model)]
         needy = workers.map([("needy", name) for name in good])
         shaped = _is_rate_independent(asked) and any(is_shape(name) for name in own.effects)
-        return Doubt(cause, agreement(own, needy) if needy or shaped else None)
+        return Doubt(cause, agreement(own, needy) if needy or shaped else None, untested)
 
 
 def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
@@ -98,6 +102,9 @@ def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
         left = [name for name in selection.candidates if name not in found.best.names]
         found = with_more(found, [[one for one in left if alike(one, name)] for name in lacking])
         held = doubted.holding(tuple(found.rivals))
+        # what may stand in for the law stays where it helps to predict; of one loop nobody knows
+        if found.thin.excitations.only_one and (spare := [name for name in found.rivals if name not in held]):
+            found = with_fewer(found, spare)
         rivals = {
             name: {
                 other: system

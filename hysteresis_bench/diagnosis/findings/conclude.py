@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.findings.candidates import candidates_of, descri
 from hysteresis_bench.diagnosis.findings.description import accepted
 from hysteresis_bench.diagnosis.findings.remainder import Remainder, remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
-from hysteresis_bench.diagnosis.findings.stages import Stage, Stages, stage_of
+from hysteresis_bench.diagnosis.findings.stages import Stage, Stages, refuted, stage_of
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie, tie
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
@@ -49,7 +49,9 @@ def conclude(
     doubt: Doubt,
 ) -> Diagnosis:
     """dataset : as measured;  left : in the residual of the last stage;  doubt : whether the law is wrong"""
-    held = doubt.holding(tuple(found.rivals))
+    # held-out records choose no system; names that they contradict are not claimed
+    known = () if refuted(stages.before, stages.after, found.evidence.floor) else tuple(found.rivals)
+    held = doubt.holding(known)
     stand_ins = tuple(name for name in found.rivals if name not in held)
     ties = tuple(
         tie(name, rival, found.best.apart(other))

@@ -41,7 +41,7 @@ class Diagnosis:
     effects : adopted and named, the largest first;  waterfall : label and RMSE on the fitted records, from the bare
     model to the noise;  responses : record, role, time, input, output, before, after over the scored samples
     offset : "" or an effect's name, as both before and after have it;  floor : RMS below which nothing is judged
-    given_up : effects that had been selected but predicted excitations left out worse than the bare model
+    given_up : effects that had been selected but predicted excitations left out worse, or that one loop cannot test
     unseen : RMSE of the final system on excitations left out of its fit, thinned; of a lone record, on blocks of it
     doubtful : so much is left that the names may stand in for something else, or they do not help on what is held out
     certainty : of each claimed effect

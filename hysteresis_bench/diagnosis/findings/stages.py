@@ -15,6 +15,7 @@ from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.fallback import WORSE
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.least_squares import split
@@ -48,6 +49,16 @@ class Stages:
     offset: str
     adopted: tuple[str, ...]
     waterfall: tuple[tuple[str, float], ...]
+
+
+def refuted(before: Stage, after: Stage, floor: float) -> bool:
+    """Is what was held out predicted worse after than before, by more than an effect must gain where it is fitted?
+
+    floor : RMS below which nothing is judged
+    """
+    if before.held_out is None or after.held_out is None:
+        return False
+    return after.held_out.rmse > WORSE * max(before.held_out.rmse, floor)
 
 
 def settle_offset(prepared: Prepared, found: Found, question: Question) -> Stages:

@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
-from hysteresis_bench.diagnosis.findings.stages import Stage
+from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.between_samples import TELLING, between_samples
 from hysteresis_bench.diagnosis.search.fallback import Fallback
@@ -59,11 +59,17 @@ class Outcome:
         return before is None or after is None or after.rmse <= before.rmse
 
     @property
+    def refuted(self) -> bool:
+        """Does what was held out contradict what was adopted?"""
+        return refuted(self.before, self.after, self.evidence.floor)
+
+    @property
     def stand_ins(self) -> tuple[str, ...]:
-        """Of what was adopted, what only stands in for the law. An offset for all records is a finding only where
-        nothing else is left, and no curve, whose zero is as it happens, was needed."""
+        """Of what was adopted, what only stands in for the law: all of it where what was held out contradicts it. An
+        offset for all records is a finding only where nothing else is left, and no curve, whose zero is as it happens,
+        was needed."""
         names = [name for name in self.adopted if name != registry.DESCRIPTION]
-        spare = {*names} - {*self.doubt.holding(names)}
+        spare = {*names} - {*(() if self.refuted else self.doubt.holding(names))}
         if self.unexplained or forms_of(tuple(names)):
             spare.add(registry.COMMON_OFFSET)
         return tuple(name for name in self.adopted if name in spare)
@@ -124,7 +130,9 @@ def headline(outcome: Outcome) -> str:
     if effects:
         named = listed([_or_its_rivals(name, outcome.ties) for name in effects])
         said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
-    elif outcome.doubt.agreement and outcome.stand_ins:
+    elif outcome.refuted and outcome.stand_ins:
+        said = f"No effect is named, as what helps on what was fitted does not carry over: with it, {moved}"
+    elif (outcome.doubt.agreement or outcome.doubt.untested) and outcome.stand_ins:
         said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
     elif outcome.cause and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
@@ -189,12 +197,26 @@ def _times(outcome: Outcome) -> str:
     return f"{rounded(held_out)} times the noise on what was held out, and {rounded(fitted)} times on what was fitted"
 
 
-def _gave_up(fallback: Fallback) -> str:
-    were, them = ("was", "it") if len(fallback.dropped) == 1 else ("were", "them")
+def _gave_up(fallback: Fallback, floor: float) -> str:
+    were, them = _were(fallback.dropped)
+    they = "it" if them == "it" else "they"
+    said = f"{listed(fallback.dropped)} had been selected and {were} given up:"
+    if not fallback.tested:
+        with_them, without = (f"{rounded(left / floor)} times the noise" for left in (fallback.selected, fallback.kept))
+        return (
+            f"{said} no part of what was fitted is an excitation of its own that could be left out to test {them}, and "
+            f"{they} may make up for the law, which leaves {with_them} with {them} and {without} without. Fit a second "
+            f"record, of another amplitude or speed."
+        )
+    worse = f" {listed(fallback.worse_on)} was predicted clearly worse with than without." if fallback.worse_on else ""
     return (
-        f"{listed(fallback.dropped)} had been selected and {were} given up: on fitted records left out in turn the "
-        f"RMSE was {fallback.selected:.3g} with {them} and {fallback.kept:.3g} without (bare: {fallback.bare:.3g})."
+        f"{said} on what was left out of the fits in turn the RMSE was {fallback.selected:.3g} with {them} and "
+        f"{fallback.kept:.3g} without (bare: {fallback.bare:.3g}).{worse}"
     )
+
+
+def _were(names: Sequence[str]) -> tuple[str, str]:
+    return ("was", "it") if len(names) == 1 else ("were", "them")
 
 
 def warnings(outcome: Outcome) -> tuple[str, ...]:
@@ -203,8 +225,12 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     records = found.full.stack.records
     said = list(advice_with(found.full.stack.model, final.names, records))
     if found.given_up:
-        said.insert(0, _gave_up(found.given_up))
-    if not outcome.carries_over:
+        said.insert(0, _gave_up(found.given_up, floor))
+    if outcome.refuted and outcome.stand_ins:
+        were, them = _were(outcome.stand_ins)
+        selected = f"{listed(outcome.stand_ins)} {were} selected on what was fitted, and {were} not named"
+        said.insert(0, f"{selected}: what was held out is predicted worse with {them} than by the bare model.")
+    elif not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
         said.append(

@@ -22,7 +22,8 @@ from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.unseen.blocks import Blocks
-from hysteresis_bench.fit.unseen.left_out import cut, left_out_errors, unseen_errors
+from hysteresis_bench.fit.unseen.excitations import Excitations, excitations
+from hysteresis_bench.fit.unseen.left_out import FURTHER, cut, left_out_errors
 from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Parameter
 
@@ -57,6 +58,10 @@ class Fitter:
     @cached_property
     def blocks(self) -> Blocks:
         return cut(self.stack.records)
+
+    @cached_property
+    def excitations(self) -> Excitations:
+        return excitations(self.stack.records)
 
     def fitted(self, hypothesis: Hypothesis) -> tuple[System, Array]:
         """The system of a hypothesis, and its values (dimension,) in units."""
@@ -126,10 +131,13 @@ class Fitter:
 
     def unseen(self, hypothesis: Hypothesis) -> Array:
         """Errors (scored samples,) of every record by a fit to the others; of a lone record those of its blocks."""
-        if len(self.stack.records) == 1:
-            return hypothesis.left_out
-        problem = self.stack.problem(hypothesis.names)
-        return unseen_errors(problem, point_of(problem, hypothesis.values))
+        return hypothesis.left_out if len(self.stack.records) == 1 else self.apart(hypothesis)
+
+    def apart(self, hypothesis: Hypothesis) -> Array:
+        """Errors (scored samples,) of every record, of a lone one of every part, by a fit to the others."""
+        problem, number = self.stack.problem(hypothesis.names), self.excitations.number
+        blocks = Blocks(number, number, int(number.max()) + 1)
+        return left_out_errors(problem, point_of(problem, hypothesis.values), blocks, FURTHER)
 
     def errors(self, names: Collection[str], values: Array) -> Array:
         """Measured minus simulated (scored samples,); values : (dimension,), in units."""

@@ -1,55 +1,112 @@
-"""Does the selected system predict an excitation that it did not see? Where it does worse than the bare model, it is
-not the one that is written.
+"""Do the selected effects help where they were not fitted? Those that do not are given up.
 
-Every fitted record is left out in turn. The bare model, and the systems that grow from it by one adopted effect
-after the other, are fitted to the other records and predict it. Held-out records have no part in this.
+Held-out records have no part in this; only fitted excitations are left out in turn (fit/unseen/excitations.py).
+
+1. The bare model, and the systems that grow from it by one adopted effect after the other, predict what was left out.
+   Where the last one does worse than the bare model, the one that does it best is kept.
+2. An effect with which any excitation between the others is predicted clearly worse than without it leaves.
+3. Of one loop nothing can be left out. What follows such a path better may be any curve, and a law that does not come
+   down to the noise asks for one. Effects stay there only if with them the noise is nearly reached.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
+
+WORSE = 1.06
+"""Times the error without an effect, or the noise, from which it makes a prediction worse: the least gain for which an
+effect joins (`selection.MATTERS`), the other way round."""
 
 
 @dataclass(frozen=True)
 class Fallback:
     """What was given up. dropped : names, in the order in which they had been adopted
-    selected, kept, bare : RMSE on records left out, of what had been selected, of what is kept, of the bare model
+    selected, kept, bare : RMSE of what had been selected, of what is kept, of the bare model, on excitations left out;
+    on what was fitted where nothing could be
+    tested : whether an excitation could be left out
+    worse_on : of effects that made an excitation worse: its record's name
     """
 
     dropped: tuple[str, ...]
     selected: float
     kept: float
     bare: float
+    tested: bool = True
+    worse_on: tuple[str, ...] = ()
+
+    def and_then(self, later: Fallback) -> Fallback:
+        """With what was given up of what was kept."""
+        return replace(
+            self,
+            dropped=(*self.dropped, *later.dropped),
+            kept=later.kept,
+            worse_on=tuple(dict.fromkeys((*self.worse_on, *later.worse_on))),
+        )
 
 
 Grown = Sequence[tuple[str, Hypothesis]]
 
 
-def fall_back(fitter: Fitter, base: Hypothesis, order: Grown) -> Fallback | None:
-    """None where the last system predicts no worse than the bare model, or where nothing can be left out.
+def fall_back(fitter: Fitter, base: Hypothesis, order: Grown, floor: float) -> Fallback | None:
+    """None where the last system predicts no worse than the bare model, or where nothing can be left out, unless of one
+    loop it leaves much more than the noise.
 
     order : the adopted effects, each with the system that it completes, the last one the selected system
+    floor : RMS that a perfect model leaves
     """
-    if len(fitter.stack.records) < 2 or not order:
+    if not order:
         return None
-    selected = unseen_rmse(fitter, order[-1][1])
-    bare = unseen_rmse(fitter, base)
+    last = order[-1][1]
+    if fitter.excitations.only_one:
+        names = tuple(name for name, _ in order)
+        return Fallback(names, last.rmse, base.rmse, base.rmse, tested=False) if last.rmse > WRONG * floor else None
+    if not fitter.excitations.apart:
+        return None
+    selected, bare = _predicted(fitter, last), _predicted(fitter, base)
     if selected <= bare:
         return None
-    errors = [bare, *(unseen_rmse(fitter, system) for _, system in order[:-1])]
+    errors = [bare, *(_predicted(fitter, system) for _, system in order[:-1])]
     kept = int(np.argmin(errors))
     return Fallback(tuple(name for name, _ in order[kept:]), selected, errors[kept], bare)
 
 
+def misleading(
+    fitter: Fitter, base: Hypothesis, best: Hypothesis, without: Mapping[str, Hypothesis], floor: float
+) -> Fallback | None:
+    """Of the effects with which some excitation between the others is predicted clearly worse, the one that does worst.
+
+    without : for each adopted effect, the selected system without it
+    """
+    inner = fitter.excitations.inner
+    if not inner or not without:
+        return None
+    records = fitter.stack.records
+    ours, number, blocks = fitter.unseen(best), fitter.excitations.number, fitter.blocks
+    found = []
+    for name, smaller in without.items():
+        theirs = fitter.unseen(smaller)
+        for k in inner:
+            own = number == k
+            more, less = _rms(ours[own]), _rms(theirs[own])
+            if more > WORSE * max(less, floor) and advantage(theirs[own], ours[own], blocks.of(own)) > CLEAR:
+                found.append((more / less, Fallback((name,), _rms(ours), _rms(theirs), 0.0, True, (records[k].name,))))
+    if not found:
+        return None
+    return replace(max(found, key=lambda one: one[0])[1], bare=_predicted(fitter, base))
+
+
 def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
     """RMSE over all fitted records, each predicted by a fit to the others; of a lone record, over its blocks."""
-    return float(np.sqrt(np.mean(fitter.unseen(hypothesis) ** 2)))
+    return _rms(fitter.unseen(hypothesis))
 
 
 def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> list[Hypothesis]:
@@ -58,3 +115,12 @@ def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> li
         return hypotheses
     squares = [unseen_rmse(fitter, hypothesis) ** 2 for hypothesis in hypotheses]
     return [one for one, square in zip(hypotheses, squares, strict=True) if (1.0 - worse) * square <= min(squares)]
+
+
+def _predicted(fitter: Fitter, hypothesis: Hypothesis) -> float:
+    """RMSE over what can be left out: whole records, or parts of a lone one."""
+    return _rms(fitter.apart(hypothesis)[fitter.excitations.counted])
+
+
+def _rms(errors: Array) -> float:
+    return float(np.sqrt(np.mean(errors**2)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import reduce
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
@@ -16,7 +17,7 @@ from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
-from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, unseen_rmse
+from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
@@ -35,7 +36,7 @@ class Found:
     base : the bare model with each record's offset;  best : what was selected, with each record's offset
     final : the same with the simplest offset;  follows : does the response to the input explain the output?
     order : the adopted effects, the one that helps most first, each with the system that it completes
-    given_up : what predicted excitations left out worse than the bare model
+    given_up : what predicted excitations left out worse, or what one loop cannot test
     rivals : for each adopted effect, what would do as well in its place, and that system
     without : for each adopted effect, the selected system without it
     impossible : effects that cannot be tried, with the reason
@@ -112,21 +113,38 @@ def with_more(found: Found, asked: Sequence[Sequence[str]]) -> Found:
     return found if best is found.best else replace(_ending_with(found, best), given_up=found.given_up)
 
 
+def with_fewer(found: Found, names: Sequence[str]) -> Found:
+    """Without these adopted effects, which nothing could test."""
+    best = found.best
+    for name in names:
+        best = found.selection.without(best, name)
+    ended = _ending_with(found, best)
+    untested = Fallback(tuple(names), found.best.rmse, ended.best.rmse, found.base.rmse, tested=False)
+    before = [one for one in (found.given_up, untested, ended.given_up) if one is not None]
+    return replace(ended, given_up=reduce(Fallback.and_then, before))
+
+
 def _ending_with(found: Found, best: Hypothesis) -> Found:
     """What is told of a selected system; where it predicts records left out worse than the bare model, of a smaller
     one."""
     selection, base = found.selection, found.base
     order = _in_order(selection, base, best)
-    given_up = fall_back(found.thin, base, order)
+    given_up = fall_back(found.thin, base, order, selection.floor)
     if given_up:
         order = order[: len(order) - len(given_up.dropped)]
         best = order[-1][1] if order else base
+    without = {name: selection.without(best, name) for name in selection.adopted(best)}
+    while worse := misleading(found.thin, base, best, without, selection.floor):
+        best = without[worse.dropped[0]]
+        given_up = worse if given_up is None else given_up.and_then(worse)
+        without = {name: selection.without(best, name) for name in selection.adopted(best)}
+        order = _in_order(selection, base, best)
     return replace(
         found,
         best=best,
         final=with_simplest_offset(selection, best),
         rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
-        without={name: selection.without(best, name) for name in selection.adopted(best)},
+        without=without,
         order=order,
         given_up=given_up,
     )

@@ -18,6 +18,10 @@ class Blocks:
     fold: Array
     folds: int
 
+    def of(self, samples: Array) -> Blocks:
+        """Of some of the samples; samples : (samples,), true where one is kept."""
+        return Blocks(self.block[samples], self.fold[samples], self.folds)
+
     @property
     def training(self) -> Array:
         """(samples, folds), 1 where a sample counts for a fold's fit."""

@@ -78,12 +78,9 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     span = float(np.ptp(u)) or 1.0
     inputs = [u[part == k] for k in range(int(part.max()) + 1)]
     low, high = (np.array([of(values) for values in inputs]) for of in (np.min, np.max))
-    within = [
-        low[k] >= np.delete(low, k).min() - BEYOND * span and high[k] <= np.delete(high, k).max() + BEYOND * span
-        for k in range(low.size)
-    ]
+    within = staying(inputs)
     if len(records) == 1:
-        within = [one and _cycles(values) for one, values in zip(within, inputs, strict=True)]
+        within = [one and cycles(values) for one, values in zip(within, inputs, strict=True)]
     whole = np.flatnonzero(within) if low.size > 1 else np.empty(0, dtype=int)
     groups = min(GROUPS, whole.size)
     fold = cells.fold + groups
@@ -95,6 +92,16 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     telling = len(records if len(records) > 1 else small) >= FEWEST and whole.size >= FEWEST
     records_out = tuple(whole.tolist()) if len(records) > 1 else ()
     return LeftOut(Blocks(block, dense.ravel(), present.size), telling, records_out)
+
+
+def staying(inputs: Sequence[Array]) -> list[bool]:
+    """Of each of two or more inputs: does it stay in the range of the others, to within `BEYOND` of that of all?"""
+    low, high = (np.array([of(values) for values in inputs]) for of in (np.min, np.max))
+    slack = BEYOND * float(high.max() - low.min() or 1.0)
+    return [
+        bool(low[k] >= np.delete(low, k).min() - slack and high[k] <= np.delete(high, k).max() + slack)
+        for k in range(low.size)
+    ]
 
 
 def last_part(records: Sequence[Record]) -> Array:
@@ -116,10 +123,10 @@ def open_way(records: Sequence[Record]) -> bool:
     if len(records) > 1:
         return False
     record = records[0]
-    return not _cycles(record.input if record.history >= record.measured.size else record.input[record.scored])
+    return not cycles(record.input if record.history >= record.measured.size else record.input[record.scored])
 
 
-def _cycles(u: Array) -> bool:
+def cycles(u: Array) -> bool:
     """Does the input go to and fro: through its middle at least so often?"""
     above = u > 0.5 * (u.min() + u.max())
     return int(np.count_nonzero(above[1:] != above[:-1])) >= CROSSINGS

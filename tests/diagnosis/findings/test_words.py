@@ -1,23 +1,27 @@
 """The headline of a diagnosis: every reason once."""
 
+from dataclasses import replace
 from types import SimpleNamespace as Of
 
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
+from hysteresis_bench.diagnosis.search.fallback import Fallback
 
 
-def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False):
+def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_before=None, **more):
+    """held_out_before : as `held_out` where None;  more : of the search's findings"""
     held = None if held_out is None else Of(rmse=held_out)
     stage = Of(held_out=held, fitted=Of(rmse=rmse), problem=Of(system=None), values=None)
+    bare = replace_held_out(stage, held_out_before) if held_out_before else stage
     evidence = Of(noise=Of(floor=0.1), floor=0.1)
     final = Of(names=frozenset(), at_bound=(), values={})
     full = Of(stack=Of(records=(), model=Of(advice=lambda _: ())))
     return Outcome(
-        before=stage,
+        before=bare,
         after=stage,
         adopted=adopted,
-        found=Of(follows=True, evidence=evidence, final=final, full=full, given_up=None),
+        found=Of(follows=True, evidence=evidence, final=final, full=full, given_up=more.get("given_up")),
         ties=(),
         left=Of(matters=not slow and rmse > 0.11, slow=slow),
         units={"output": "um"},
@@ -25,6 +29,10 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False):
         doubt=Doubt(agreement=Agreement(needs, dict.fromkeys(needs, 0.3), {})) if needs else Doubt(),
         alone=False,
     )
+
+
+def replace_held_out(stage, rmse):
+    return Of(**{**vars(stage), "held_out": Of(rmse=rmse)})
 
 
 def test_stand_ins_are_told_together_where_the_reason_is_one():
@@ -70,3 +78,40 @@ def test_agreement_on_what_was_fitted_does_not_vouch_for_names_that_fail_on_what
     needs = {"dahl": ("input-lag",), "bouc-wen": ("input-lag",), "lugre": ("input-lag",)}
     assert not outcome_of(("input-lag",), needs, rmse=0.3, held_out=0.35).doubtful
     assert outcome_of(("input-lag",), needs, rmse=0.12, held_out=1.6).doubtful
+
+
+def test_a_name_that_held_out_records_contradict_is_not_claimed():
+    worse = outcome_of(("creep", "saturation"), {}, rmse=0.1, held_out=0.25, held_out_before=0.2)
+    assert worse.refuted
+    assert worse.named == ()
+    assert worse.stand_ins == ("creep", "saturation")
+    assert worse.unexplained
+    carried = "No effect is named, as what helps on what was fitted does not carry over: with it, on what was held out"
+    assert headline(worse).startswith(f"{carried} the RMSE does NOT fall, it goes from 0.2 to 0.25")
+    (first, *_) = warnings(worse)
+    assert first.startswith("creep and saturation were selected on what was fitted, and were not named")
+
+
+def test_what_the_noise_may_have_done_to_a_held_out_record_contradicts_no_name():
+    near = outcome_of(("creep",), {}, rmse=0.1, held_out=0.104, held_out_before=0.1)
+    assert not near.refuted
+    assert near.named == ("creep",)
+    below = outcome_of(("creep",), {}, rmse=0.1, held_out=0.1, held_out_before=0.05)
+    assert not below.refuted, "both are within the noise"
+
+
+def test_what_nothing_could_test_is_given_up_aloud():
+    untested = Fallback(("creep", "saturation"), 0.4, 1.1, 1.1, tested=False)
+    (said, *_) = warnings(outcome_of((), {}, given_up=untested))
+    assert "creep and saturation had been selected and were given up" in said
+    assert "which leaves 4 times the noise with them and 11 times the noise without" in said
+    worse = Fallback(("creep",), 0.2, 0.21, 0.3, worse_on=("slow",))
+    (said, *_) = warnings(outcome_of((), {}, given_up=worse))
+    assert "was 0.2 with it and 0.21 without (bare: 0.3). slow was predicted clearly worse with than without." in said
+
+
+def test_what_one_excitation_shows_far_from_the_noise_is_no_name():
+    alone = replace(outcome_of(("creep",), {}, rmse=0.3), doubt=Doubt(untested=True))
+    assert alone.named == ()
+    assert alone.stand_ins == ("creep",)
+    assert headline(alone).startswith("No effect is named, as what helps may be the law's own")

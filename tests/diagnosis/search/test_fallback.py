@@ -1,4 +1,4 @@
-"""Excitations left out of the fitted records: a system that predicts them worse than the bare model is given up."""
+"""Excitations left out of the fitted records: what predicts them worse is given up, and what nothing can test."""
 
 from dataclasses import replace
 
@@ -8,24 +8,26 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.diagnosis.search.fallback import fall_back, unseen_rmse
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
+from hysteresis_bench.diagnosis.search.search import Found, with_fewer
+from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.signals import Record
 
 TRUE = {"alpha": 0.3, "beta": 0.6, "gamma": 0.2, "d": 1.0}
 TIME = np.linspace(0.0, 2.0, 300)
+NOISE = 0.01
 
 
 @pytest.fixture(scope="module")
 def records():
     """Bouc-Wen; each record with a drift of its own, up in one and down in the other: what fits one misleads on the
     other."""
-    model, rng = registry.build("models", "bouc-wen"), np.random.default_rng(2)
-    names = type("Values", (), {name: np.array([value]) for name, value in TRUE.items()})()
-    made = []
+    rng, made = np.random.default_rng(2), []
     for name, slope in (("up", 0.4), ("down", -0.4), ("level", 0.0)):
         drive = 4.0 * np.sin(2 * np.pi * TIME) * (1.0 - 0.2 * TIME)
         bare = Record(TIME, drive, None, name)
-        output = model.simulate(bare.signal, names)[:, 0] + slope * TIME + 0.01 * rng.standard_normal(TIME.size)
+        output = bare_output(bare) + slope * TIME + NOISE * rng.standard_normal(TIME.size)
         made.append(replace(bare, output=output))
     return made
 
@@ -42,7 +44,7 @@ def grown(fitter, *names):
 def test_what_misleads_on_a_record_left_out_is_dropped(records):
     fitter = Fitter(Stack(registry.build("models", "bouc-wen"), tuple(records[:2])))
     base, order = grown(fitter, "drift")
-    found = fall_back(fitter, base, order)
+    found = fall_back(fitter, base, order, NOISE)
     assert found is not None
     assert found.dropped == ("drift",)
     assert found.kept == found.bare < found.selected
@@ -54,10 +56,109 @@ def test_what_helps_stays(records):
     fitter = Fitter(Stack(registry.build("models", "bouc-wen"), both))
     base, order = grown(fitter, "drift")
     assert unseen_rmse(fitter, order[-1][1]) < unseen_rmse(fitter, base)
-    assert fall_back(fitter, base, order) is None
+    assert fall_back(fitter, base, order, NOISE) is None
 
 
-def test_with_one_record_nothing_can_be_left_out(records):
-    fitter = Fitter(Stack(registry.build("models", "bouc-wen"), (records[0],)))
+def test_parts_of_a_lone_record_are_left_out(records):
+    """Six cycles of one amplitude: every part of two holds one, and drifts as the others do."""
+    time = np.linspace(0.0, 6.0, 900)
+    bare = Record(time, 4.0 * np.sin(2 * np.pi * time), None, "six")
+    fitter = lone(bare, bare_output(bare) + 0.1 * time)
+    assert fitter.excitations.apart == (0, 1, 2)
+    assert not fitter.excitations.varied
     base, order = grown(fitter, "drift")
-    assert fall_back(fitter, base, order) is None
+    assert fall_back(fitter, base, order, NOISE) is None
+    found = fall_back(fitter, order[-1][1], [("drift", base)], NOISE)
+    assert found is not None
+    assert found.tested
+    assert found.kept < 0.5 * found.selected
+
+
+def test_one_loop_leaves_nothing_out_and_names_nothing_far_from_the_noise():
+    """A loop of a law with a bend, to which another law is fitted: an effect makes up for half of that."""
+    loop = one_loop()
+    fitter = lone(loop, np.tanh(0.8 * bare_output(loop)) + 0.15 * loop.input**3 / 64.0, "dahl")
+    assert fitter.excitations.apart == ()
+    base, order = grown(fitter, "saturation")
+    left = order[-1][1].rmse
+    assert left < 0.8 * base.rmse
+    assert fall_back(fitter, base, order, left) is None
+    assert fall_back(fitter, base, order, left / 1.9) is None
+    found = fall_back(fitter, base, order, left / 2.1)
+    assert found == Fallback(("saturation",), left, base.rmse, base.rmse, tested=False)
+
+
+def test_what_may_stand_in_for_the_law_leaves_where_one_loop_cannot_tell():
+    """Also where the noise is reached with it."""
+    loop = one_loop()
+    fitter = lone(loop, np.tanh(0.8 * bare_output(loop)) + 0.15 * loop.input**3 / 64.0, "dahl")
+    base, order = grown(fitter, "saturation")
+    best = order[-1][1]
+    selection = Selection(fitter, Workers(fitter, 1), best.rmse, ("saturation",))
+    found = Found(
+        full=fitter,
+        thin=fitter,
+        evidence=None,
+        selection=selection,
+        base=base,
+        best=best,
+        final=best,
+        follows=True,
+        order=tuple(order),
+        given_up=None,
+        rivals={"saturation": {}},
+        without={},
+        impossible={},
+    )
+    fewer = with_fewer(found, ["saturation"])
+    assert selection.adopted(fewer.best) == ()
+    assert fewer.order == ()
+    assert fewer.given_up == Fallback(("saturation",), best.rmse, fewer.best.rmse, base.rmse, tested=False)
+
+
+def test_what_makes_one_excitation_worse_leaves_though_it_helps_on_the_whole():
+    """Two records drift much, the third, whose input is like theirs, as much the other way: for all three a drift makes
+    it worse, and the sum better."""
+    time = np.linspace(0.0, 2.0, 300)
+    rng, made = np.random.default_rng(4), []
+    for name, slope in (("first", 0.4), ("second", 0.4), ("third", 0.4), ("odd", -0.1)):
+        bare = Record(time, 4.0 * np.sin(2 * np.pi * time), None, name)
+        made.append(replace(bare, output=bare_output(bare) + slope * time + NOISE * rng.standard_normal(time.size)))
+    fitter = Fitter(Stack(registry.build("models", "bouc-wen"), tuple(made)))
+    base, order = grown(fitter, "drift")
+    best = order[-1][1]
+    assert fall_back(fitter, base, order, NOISE) is None
+    found = misleading(fitter, base, best, {"drift": base}, NOISE)
+    assert found is not None
+    assert (found.dropped, found.worse_on) == (("drift",), ("odd",))
+    assert found.selected < found.bare
+    sound = Fitter(Stack(registry.build("models", "bouc-wen"), tuple(made[:3])))
+    base, order = grown(sound, "drift")
+    assert misleading(sound, base, order[-1][1], {"drift": base}, NOISE) is None
+
+
+def test_an_excitation_beyond_all_others_accuses_nobody(records):
+    """The odd one is half as large again: to predict it is to extrapolate."""
+    drives = [
+        replace(record, input=scale * record.input) for record, scale in zip(records, (1.0, 1.0, 1.5), strict=True)
+    ]
+    fitter = Fitter(Stack(registry.build("models", "bouc-wen"), tuple(drives)))
+    assert fitter.excitations.inner == (0, 1)
+    assert fitter.excitations.apart == (0, 1, 2)
+
+
+def lone(record, output, model="bouc-wen"):
+    rng = np.random.default_rng(3)
+    measured = replace(record, output=output + NOISE * rng.standard_normal(output.size))
+    return Fitter(Stack(registry.build("models", model), (measured,)))
+
+
+def one_loop():
+    """One period that had settled: the way there is simulated and not scored."""
+    time = np.linspace(0.0, 2.0, 600)
+    return Record(time, 4.0 * np.sin(2 * np.pi * time), None, "loop", history=300)
+
+
+def bare_output(record):
+    names = type("Values", (), {name: np.array([value]) for name, value in TRUE.items()})()
+    return registry.build("models", "bouc-wen").simulate(record.signal, names)[:, 0]
