@@ -48,7 +48,8 @@ BETWEEN = (
 
 MID_LOOP = (
     "The records seem to begin in mid-loop, where a model begins at rest: until the input has passed both ends of its "
-    "range they are off, and not later{}."
+    "range they are off, and not later{}. How far a change with the path, such as fatigue, had gone before is not "
+    "known."
 )
 CUT = "Up to there they are simulated and not scored; `predict` will be off there as well."
 PAST = (
