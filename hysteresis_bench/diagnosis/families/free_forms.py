@@ -9,6 +9,7 @@ curve has joined, the search for names goes on from there.
 
 from __future__ import annotations
 
+from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, MISFIT, MOST, NAMED, Selection
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
@@ -30,8 +31,25 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         if current is not start and current.rmse <= MISFIT * selection.floor and not more:
             break
         current = named  # what even curves do not explain is the law's, and they its stand-ins
+    current = _in_place_of_offsets(selection, current)
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
+
+
+def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesis:
+    """What a formula does wrong may hide in an offset of every record, which no other record has. A free form in the
+    place of a name that leaves no more without these offsets does what they did."""
+    offset, fitter = registry.RECORD_OFFSET, selection.fitter
+    if offset not in current.names or not selection.adopted(current):
+        return current
+    (without,) = selection.workers.map([("reduced", current, offset)])
+    if without.rmse <= MATTERS * max(current.rmse, selection.floor):
+        return current
+    forms = [form for form in selection.forms if form not in current.names and not fitter.stack.effect(form).estimates]
+    tried = _in_place(selection, without, forms)
+    found = [one for one in tried if one.rmse <= current.rmse and one.cv_rmse <= current.cv_rmse]
+    clear = [one for one in found if _clearly(selection, without, one)]
+    return selection.workers.map([("extended", selection.simplest(clear), offset)])[0] if clear else current
 
 
 def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...]) -> Hypothesis:

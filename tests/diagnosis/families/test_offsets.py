@@ -1,0 +1,42 @@
+"""An offset of every record hides what a formula does wrong, and a curve in its place needs none."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.families import free_forms
+
+OFFSET = registry.RECORD_OFFSET
+
+
+def system(*names, rmse):
+    return SimpleNamespace(names=frozenset(names), rmse=rmse, cv_rmse=rmse)
+
+
+@pytest.mark.parametrize(
+    ("without", "curve", "names"),
+    [
+        (1.40, 1.00, {"leakage-curve", OFFSET}),  # the formula needs offsets, the curve does not
+        (1.40, 1.09, {"leakage", OFFSET}),  # the records have offsets of their own, which no curve takes over
+        (1.08, 1.00, {"leakage", OFFSET}),  # nothing to speak of hides in the offsets
+    ],
+)
+def test_a_curve_that_does_what_offsets_did_is_taken(monkeypatch, without, curve, names):
+    current, bare = system("leakage", OFFSET, rmse=1.05), system("leakage", rmse=without)
+
+    def answer(questions):
+        ((kind, one, name),) = questions
+        return [bare] if kind == "reduced" else [system(*one.names, name, rmse=one.rmse)]
+
+    selection = SimpleNamespace(
+        adopted=lambda one: tuple(one.names - {OFFSET}),
+        fitter=SimpleNamespace(stack=SimpleNamespace(effect=lambda name: SimpleNamespace(estimates=0))),
+        workers=SimpleNamespace(map=answer),
+        simplest=lambda systems: systems[0],
+        floor=1.0,
+        forms=("leakage-curve",),
+    )
+    monkeypatch.setattr(free_forms, "_in_place", lambda *rest: [system("leakage-curve", rmse=curve)])
+    monkeypatch.setattr(free_forms, "_clearly", lambda *rest: True)
+    assert free_forms._in_place_of_offsets(selection, current).names == names
