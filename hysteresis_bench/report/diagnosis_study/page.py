@@ -22,6 +22,8 @@ from hysteresis_bench.statistics import wilson
 
 FILE = "report.html"
 
+OWN, ANOTHER = "Where the hysteresis is the model's own", "Where the hysteresis is not the model's own"
+
 GOOD = 1.15
 """RMSE over noise up to which records that were neither fitted nor held out count as predicted."""
 
@@ -104,7 +106,7 @@ def _how(notes: Sequence[str]) -> Section:
 
 def _answer(known: Sequence[Case], others: Sequence[Case]) -> list[str]:
     found = []
-    for where, cases in (("where the hysteresis is the model's own", known), ("on the virtual rigs", others)):
+    for where, cases in ((OWN, known), (ANOTHER, others)):
         done = [case for case in cases if case.status == "done"]
         hidden = [case for case in done if case.hidden]
         if not done:
@@ -125,14 +127,16 @@ def _answer(known: Sequence[Case], others: Sequence[Case]) -> list[str]:
             if len(big) < len(hidden):
                 parts.append(f"of those that at least double the bare model's error, {_share([c.right for c in big])}")
         if clean:
-            parts.append(f"on clean data something was claimed in {_share([bool(case.claimed) for case in clean])}")
+            parts.append(
+                f"where nothing is hidden something was claimed in {_share([bool(case.claimed) for case in clean])}"
+            )
         fresh = [case.fresh for case in done if case.fresh is not None]
         if fresh:
             parts.append(
                 f"records that were neither fitted nor held out were predicted to within {GOOD:g} times the noise in "
                 f"{_share([value <= GOOD for value in fresh])}"
             )
-        found.append(f"{where[0].upper()}{where[1:]}: {'; '.join(parts)}.")
+        found.append(f"{where}: {'; '.join(parts)}.")
     return found or ["No case has finished."]
 
 
@@ -154,7 +158,7 @@ def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> list[Block]:
     rows = sorted(table.index, key=lambda effect: (effect == NOTHING, effect))
     columns = sorted(table.columns, key=lambda effect: (effect == NOTHING, effect))
     counts = {(row, column): int(table.at[row, column]) for row in rows for column in columns if table.at[row, column]}
-    heading = "Where the hysteresis is the model's own" if name == "known" else "On the virtual rigs"
+    heading = OWN if name == "known" else ANOTHER
     drawn = confusion_matrix(folder, f"confusion-{name}", counts, rows=rows, columns=columns)
     lines: list[list[str | Cell]] = [
         [row, *(_count(row, column, counts.get((row, column), 0)) for column in columns)] for row in rows
