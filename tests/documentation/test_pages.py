@@ -83,7 +83,7 @@ def test_what_the_pages_conclude_from_the_kept_results_holds():
     assert steel[1] > 5.0 * steel[0]
     assert kept.law("electrical steel, one loop", "held_out") < 0.5 * steel[1]
     assert "input-lag or transport-delay" in kept.measurement("piezo", "ties")
-    assert "input-lag" in kept.closing("pea")["advice"]
+    assert "To tell lags-after and creep apart" in kept.closing("pea")["advice"]
 
 
 def test_the_citation_names_the_version():
