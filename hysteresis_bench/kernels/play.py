@@ -54,13 +54,8 @@ def play(u: Array, radius: Array) -> Array:
             for j in range(swarm):
                 after[j] = played(now[j], radius[j], before[j])
         return p
-    for i in range(1, samples - 1, 2):  # two samples at once: half as often is a place waited for on its way to memory
-        now, then, before, after, last = u[i, 0], u[i + 1, 0], p[i - 1], p[i], p[i + 1]
+    for i in range(1, samples):
+        now, before, after = u[i, 0], p[i - 1], p[i]
         for j in range(swarm):
-            half = radius[j]
-            place = played(now, half, before[j])
-            after[j], last[j] = place, played(then, half, place)
-    if samples > 1 and samples % 2 == 0:
-        for j in range(swarm):
-            p[samples - 1, j] = played(u[samples - 1, 0], radius[j], p[samples - 2, j])
+            after[j] = played(now, radius[j], before[j])
     return p
