@@ -33,6 +33,7 @@ LINEAR = {"b": 5e4, "c_over_m": 60.0, "k_over_m": 4e4}
 EFFECTS = {
     "bias": {"offset": 0.2},
     "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
+    "droop": {"rate": 2.0},
     "input-lag": {"time_constant": 0.004},
     "lag-curve-after": {"bend": 1.0, "falling_fast": 0.01, "falling": 0.01, "rising": 0.005, "rising_fast": 0.005},
     "output-lag": {"time_constant": 0.005},
@@ -60,6 +61,7 @@ CASES = {
     "plays": ("prandtl-ishlinskii", PLAYS, (), 1e-9),
     "creep": ("bouc-wen", BOUC_WEN, ("creep", "bias"), 1e-9),
     "creep behind plays": ("prandtl-ishlinskii", PLAYS, ("creep",), 1e-9),
+    "droop": ("bouc-wen", BOUC_WEN, ("droop",), 1e-9),
     "lag before": ("bouc-wen", BOUC_WEN, ("input-lag",), 5e-4),
     "lag behind": ("bouc-wen", BOUC_WEN, ("output-lag",), 5e-4),
     "resonance": ("bouc-wen", BOUC_WEN, ("resonance",), 3e-4),

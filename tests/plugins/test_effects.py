@@ -77,6 +77,21 @@ def test_creep_of_no_decades_is_one_relaxation():
     np.testing.assert_allclose(y, expected, atol=1e-12)
 
 
+def test_droop_lets_a_step_decay_and_keeps_what_was_there_at_the_first_sample():
+    time = np.concatenate([[-1e-9], np.linspace(1e-9, 8.0, 500)])
+    step = Signal(time, np.where(time > 0, 1.5, 0.5)[:, None])
+    y = applied("droop", step, rate=0.7)
+    np.testing.assert_allclose(y, 1.0 + np.where(time > 0, 2.0 * np.exp(-0.7 * np.maximum(time, 0.0)), 0.0), atol=1e-8)
+
+
+def test_droop_is_a_high_pass():
+    from scipy.signal import lsim
+
+    rate, signal = 0.8, record().signal
+    _, passed, _ = lsim(([1.0, 0.0], [1.0, rate]), 2.0 * (DRIVE - DRIVE[0]), TIME - TIME[0])
+    np.testing.assert_allclose(applied("droop", signal, rate=rate), 2.0 * DRIVE[0] + passed, atol=1e-10)
+
+
 def test_drift_counts_from_the_first_sample():
     np.testing.assert_allclose(applied("drift", record().signal, rate=-0.25), 2.0 * DRIVE - 0.25 * (TIME - 2.0))
 
@@ -177,7 +192,7 @@ def test_boxes_follow_the_data():
     assert box("periodic-disturbance", data)["frequency"] == pytest.approx((0.75, 50.0), rel=1e-6)
 
 
-RATE = ["input-lag", "output-lag", "transport-delay", "creep", "drift", "periodic-disturbance"]
+RATE = ["input-lag", "output-lag", "transport-delay", "creep", "droop", "drift", "periodic-disturbance"]
 STATIC = ["saturation", "asymmetry", "backlash", "fatigue"]
 
 

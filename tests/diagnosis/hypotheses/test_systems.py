@@ -21,6 +21,7 @@ CHAIN = [
     "response-with-temperature",
     "temperature-sensitivity",
     "creep",
+    "droop",
     "lag-curve-after",
     "lags-after",
     "output-lag",

@@ -1,0 +1,87 @@
+"""Droop: a slow high-pass after the hysteresis, as of a charge amplifier or an AC-coupled sensor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._hidden import euler_lag, tustin
+from hysteresis_plugins.effects._in_place import own
+from hysteresis_plugins.effects._ranges import finest_step, longest, unresolved
+
+SLOWEST = 1e-3
+"""Least decay in the longest record: three decades below it nothing is left that noise would not hide."""
+
+
+def _time_constant(hiding: Hiding) -> float:
+    """From two fifths of a record on: the weaker, the slower."""
+    return 0.4 * hiding.duration / max(hiding.strength, 1e-6)
+
+
+def _euler(inner: Response, u: Array, hiding: Hiding) -> Array:
+    y = inner(u)
+    passed: Array = y + y[0] - euler_lag(y, _time_constant(hiding), hiding.step)
+    return passed
+
+
+def _second_order(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Two stages in series, as of an amplifier behind an AC-coupled input."""
+    y, tau = inner(u), 2.0 * _time_constant(hiding)
+    passed: Array = y[0] + tustin(y - y[0], [tau * tau, 0.0, 0.0], [tau * tau, 2.0 * tau, 1.0], hiding.step)
+    return passed
+
+
+def _incomplete(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A leaking capacitor in series with one that does not leak: a part of the response stays."""
+    y = inner(u)
+    passed: Array = y - 0.7 * (euler_lag(y, 0.5 * _time_constant(hiding), hiding.step) - y[0])
+    return passed
+
+
+@dataclass(frozen=True)
+class Droop(Effect):
+    """What is measured runs back to where it began: the discharge of a charge amplifier, or an AC coupling.
+
+    dy/dt = dx/dt - rate (y - x_0), y = x_0 at the first sample, x the response: a first-order high-pass with the time
+    constant 1 / rate of the amplifier's feedback [1], in terms of a lag y = x + x_0 - lag(x). Exact for a response that
+    is linear between its samples. The loop of a slow drive shrinks and leans against its sense of rotation. Ours: the
+    amplifier is reset, or has settled, at the first sample.
+
+    [1] G. Gautschi, Piezoelectric Sensorics, Springer (2002), on amplifiers: drift and time constant.
+    """
+
+    acts = "output"
+    family = "dynamics after the law"
+    affine = True
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "leakage": "a slow droop takes away the integral of the response, which goes with the integral of the input",
+        "creep": "both go on while the input holds, in opposite senses",
+        "transport-delay": "at one frequency droop is a lead, which makes up for a part of a delay",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler,)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_second_order, _incomplete)
+    parameters = (Parameter("rate", 1e-4, 10.0, "1/{time}", "log", null=0.0, meaning="inverse time constant"),)
+
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.droop import droop
+
+        output = inner(signal)
+        if not signal.timed or not np.any(p.rate):
+            return output
+        output = own(output, signal)
+        droop(output, signal.time, p.rate)
+        return output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """From a thousandth over the longest record's duration to a tenth over a step's, which passes steps only."""
+        return (self.parameters[0].within(SLOWEST / longest(records), 0.1 / finest_step(records)),)
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return unresolved(records)
