@@ -237,6 +237,12 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             f"The final system still leaves {_times(outcome)}: the model's own law does not follow these data"
             f"{', and what is named may stand in for that' if outcome.doubted else ''}."
         )
+    fitted, held_out = outcome.leaves
+    if after.held_out and MISFIT * max(fitted, 1.0) < held_out <= WRONG * max(fitted, 1.0):
+        said.append(
+            f"What was held out is missed by {rounded(held_out)} times the noise, what was fitted by {rounded(fitted)}:"
+            " what was fitted does not tell all. Fit what was held out too, and hold out another excitation."
+        )
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
     if outcome.left.slow and not outcome.cause:

@@ -14,10 +14,18 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._hidden import euler_lag, tustin
 from hysteresis_plugins.effects._in_place import own
-from hysteresis_plugins.effects._ranges import finest_step, longest, unresolved
+from hysteresis_plugins.effects._ranges import finest_step, longest, one_frequency, unresolved
 
 SLOWEST = 1e-3
 """Least decay in the longest record: three decades below it nothing is left that noise would not hide."""
+CENTRED = 0.1
+"""Of its range, how far from its first value the input's mean may be to count as moving about it."""
+
+
+def _off_centre(record: Record) -> float:
+    """What of the input would run back, as a share of its range."""
+    span = float(np.ptp(record.input))
+    return abs(float(np.mean(record.input) - record.input[0])) / span if span > 0.0 else 0.0
 
 
 def _time_constant(hiding: Hiding) -> float:
@@ -84,4 +92,10 @@ class Droop(Effect):
         return (self.parameters[0].within(SLOWEST / longest(records), 0.1 / finest_step(records)),)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
-        return unresolved(records)
+        if reason := unresolved(records):
+            return reason
+        if one_frequency(records) and max(map(_off_centre, records)) < CENTRED:
+            return (
+                "at the one frequency of these records, about where they begin, droop is a lead, as a loop's shape is"
+            )
+        return ""

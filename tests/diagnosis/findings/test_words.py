@@ -74,6 +74,15 @@ def test_what_does_not_predict_the_held_out_records_is_not_said_to_explain_the_d
     assert outcome_of(("creep",), {}, rmse=0.3, held_out=2.1, slow=True).unexplained
 
 
+def test_what_was_held_out_and_is_missed_by_a_little_is_told():
+    told = (
+        "What was held out is missed by 1.8 times the noise, what was fitted by 1: what was fitted does not tell all."
+    )
+    assert told in " ".join(warnings(outcome_of(("creep",), {}, rmse=0.1, held_out=0.18)))
+    assert "missed by" not in " ".join(warnings(outcome_of(("creep",), {}, rmse=0.1, held_out=0.11)))
+    assert "missed by" not in " ".join(warnings(outcome_of(("creep",), {}, rmse=0.3, held_out=0.35, slow=True)))
+
+
 def test_agreement_on_what_was_fitted_does_not_vouch_for_names_that_fail_on_what_was_held_out():
     needs = {"dahl": ("input-lag",), "bouc-wen": ("input-lag",), "lugre": ("input-lag",)}
     assert not outcome_of(("input-lag",), needs, rmse=0.3, held_out=0.35).doubtful
