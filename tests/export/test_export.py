@@ -74,6 +74,8 @@ EFFECTS = {
     "record-drift": {},
     "record-offset": {},
     "resonance": {"period": 0.02, "damping": 0.2},
+    "stop-above": {"level": 0.6, "share": 0.8},
+    "stop-below": {"level": -0.4, "share": 1.0},
     "saturation": {"inverse_level": 0.25, "sharpness": 3.0},
     "transport-delay": {"delay": 0.0133},
     "disturbance-wave": {

@@ -114,6 +114,33 @@ def test_saturation_comes_near_to_tanh_and_to_a_clip():
     assert np.sqrt(np.mean((cut - np.clip(2 * x, -1, 1)) ** 2)) < 0.01
 
 
+def test_a_rigid_stop_cuts_off_and_an_elastic_one_bends():
+    signal = record().signal
+    cut = applied("stop-above", signal, level=0.5, share=1.0)
+    np.testing.assert_allclose(cut, np.minimum(2.0 * DRIVE, 0.5), atol=1e-15)
+    bent = applied("stop-above", signal, level=0.5, share=0.25)
+    np.testing.assert_allclose(bent, np.where(2.0 * DRIVE > 0.5, 0.5 + 1.5 * (DRIVE - 0.25), 2.0 * DRIVE), atol=1e-15)
+
+
+def test_a_stop_below_is_one_above_upside_down():
+    signal = record().signal
+    below = applied("stop-below", signal, level=-0.3, share=0.7)
+    upside_down = signal.with_input(-signal.input)
+    np.testing.assert_allclose(below, -applied("stop-above", upside_down, level=0.3, share=0.7), atol=1e-15)
+
+
+@pytest.mark.parametrize(
+    ("name", "side"), [("stop-above", np.minimum), ("stop-below", lambda x, low: np.maximum(x, -low))]
+)
+def test_the_search_for_a_stop_begins_at_its_level(name, side):
+    held = record(output=side(2.0 * DRIVE, 0.4))
+    (start,) = registry.build("effects", name).starts([held], [np.zeros(held.time.size)])
+    level = box(name, held)["level"]
+    assert abs(start["level"]) == pytest.approx(0.4)
+    assert level[0] <= start["level"] <= level[1]
+    assert start["share"] == 1.0
+
+
 def test_asymmetry_stays_monotone_in_its_box():
     low, high = box("asymmetry", record())["curvature"]
     rising = np.linspace(-3.5, 3.5, 200)
@@ -201,7 +228,7 @@ def test_an_index_is_no_time(name):
     assert "only an index" in against(name, record(units={"time": INDEX, "input": "V", "output": "um"}))
 
 
-@pytest.mark.parametrize("name", STATIC)
+@pytest.mark.parametrize("name", [*STATIC, "stop-above", "stop-below"])
 def test_an_index_is_enough_for_what_has_no_rate(name):
     assert against(name, record(units={"time": INDEX, "input": "V", "output": "um"})) == ""
 
@@ -211,8 +238,9 @@ def test_an_input_that_never_moves_tells_nothing(name):
     assert against(name, record(drive=np.ones(TIME.size))) == "the input never moves"
 
 
-def test_an_output_that_never_moves_cannot_saturate():
-    assert against("saturation", record(output=np.ones(TIME.size))) == "the output never moves"
+@pytest.mark.parametrize("name", ["saturation", "stop-above", "stop-below"])
+def test_an_output_that_never_moves_cannot_saturate(name):
+    assert against(name, record(output=np.ones(TIME.size))) == "the output never moves"
 
 
 @pytest.mark.parametrize("name", RATE[:4])

@@ -15,6 +15,8 @@ CHAIN = [
     "lags-before",
     "output-curve",
     "saturation",
+    "stop-above",
+    "stop-below",
     "fatigue",
     "gain-with-path",
     "gain-with-time",

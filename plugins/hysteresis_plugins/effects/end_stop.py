@@ -1,0 +1,127 @@
+"""End stop: on one side the output meets something stiffer, or an instrument's range ends there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
+from hysteresis_plugins.effects._ranges import output_span
+
+HIGHEST = 0.97
+"""Quantile of the measured output at which a search begins: what a stop holds back lies together at its level."""
+
+
+LEVEL = 0.4
+"""Of the largest response, where made data meet the stop, so that smaller drives and one-sided ones reach it."""
+
+
+def _elastic(inner: Response, u: Array, hiding: Hiding) -> Array:
+    y = inner(u)
+    held: Array = np.where(y > LEVEL * hiding.top, y + hiding.strength * (LEVEL * hiding.top - y), y)
+    return held
+
+
+def _rounded(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Met gradually, over a tenth of the largest response to either side."""
+    y, width = inner(u), 0.1 * hiding.top
+    held: Array = y - hiding.strength * width * np.logaddexp(0.0, (y - LEVEL * hiding.top) / width)
+    return held
+
+
+def _padded(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A pad that stiffens as it is pressed."""
+    y = inner(u)
+    beyond = np.maximum(y - LEVEL * hiding.top, 0.0)
+    held: Array = y - beyond + beyond / (1.0 + 4.0 * hiding.strength * beyond / hiding.top)
+    return held
+
+
+def _from_below(form: HiddenForm) -> HiddenForm:
+    """The same on the other side."""
+
+    def below(inner: Response, u: Array, hiding: Hiding) -> Array:
+        return -form(lambda v: -inner(v), u, hiding)
+
+    return below
+
+
+@dataclass(frozen=True)
+class StopAbove(Effect):
+    """Above a level the output goes on by a share less: a bilinear contact [1].
+
+    y = x - share max(x - level, 0), x the response. share = 1 is a rigid stop, or the end of an instrument's range;
+    less of it is an elastic one, share = contact stiffness / (contact stiffness + own stiffness). Ours: the box goes a
+    quarter beyond 1, so that a rigid one does not lie at its edge.
+
+    [1] S. W. Shaw, P. J. Holmes, A periodically forced piecewise linear oscillator, Journal of Sound and Vibration 90
+    (1983) 129-155.
+    """
+
+    acts = "output"
+    family = "curve of the output"
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "saturation": "where the output reaches one end of its range only, both flatten that end",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_elastic,)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_rounded, _padded)
+    parameters = (
+        Parameter("level", -1.0, 1.0, "{output}", meaning="of the response at which the stop is met"),
+        Parameter("share", 0.0, 1.25, null=0.0, meaning="of what would pass the stop that it holds back"),
+    )
+
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.end_stop import stop_above
+
+        output = own(inner(signal), signal)
+        stop_above(output, p.level, p.share)
+        return output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Levels in the upper four fifths of the measured range."""
+        level, share = self.parameters
+        low, high = _level_at(records, 0.0), _level_at(records, 1.0)
+        return level.within(0.8 * low + 0.2 * high, high), share
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return "the output never moves" if output_span(records) == 0.0 else ""
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+        """A rigid stop where the highest outputs lie."""
+        return [{"level": _level_at(records, HIGHEST), "share": 1.0}]
+
+
+@dataclass(frozen=True)
+class StopBelow(StopAbove):
+    """Below a level the output goes on by a share less: `stop-above` on the other side."""
+
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_from_below(_elastic),)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_from_below(_rounded), _from_below(_padded))
+
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.end_stop import stop_below
+
+        output = own(inner(signal), signal)
+        stop_below(output, p.level, p.share)
+        return output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Levels in the lower four fifths of the measured range."""
+        level, share = self.parameters
+        low, high = _level_at(records, 0.0), _level_at(records, 1.0)
+        return level.within(low, 0.2 * low + 0.8 * high), share
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+        """A rigid stop where the lowest outputs lie."""
+        return [{"level": _level_at(records, 1.0 - HIGHEST), "share": 1.0}]
+
+
+def _level_at(records: Sequence[Record], quantile: float) -> float:
+    return float(np.quantile(np.concatenate([record.measured for record in records]), quantile))
