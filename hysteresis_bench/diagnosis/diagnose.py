@@ -140,21 +140,21 @@ def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], questio
     told = MID_LOOP.format(f"; {needed}" if needed else "")
     measured = prepared.dataset
     cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
-    best = cut
+    best, known = cut, {}
     for _ in range(ESTIMATED):
-        known = pasts(*best[1].thin.fitted(best[1].best), measured.fitted)
-        again = _anew(prepared.read_as(with_pasts(measured, known), f"{told} {PAST}"), question)
+        estimated = pasts(*best[1].thin.fitted(best[1].best), measured.fitted)
+        again = _anew(prepared.read_as(with_pasts(measured, estimated), f"{told} {PAST}"), question)
         if best is not cut and again[1].best.rmse >= BETTER * best[1].best.rmse:
             break
         same = again[1].best.names == best[1].best.names
-        best = again
+        best, known = again, estimated
         if same:
             break
     if best[1].best.rmse > ALIKE * cut[1].best.rmse:
         best = cut
     else:  # where a held-out record stands tells its past as well
-        known = known | pasts(*best[1].thin.fitted(best[1].final), begun(measured.held_out))
-        best = (prepared.read_as(with_pasts(measured, known), f"{told} {PAST}"), best[1])
+        everywhere = known | pasts(*best[1].thin.fitted(best[1].final), begun(measured.held_out))
+        best = (prepared.read_as(with_pasts(measured, everywhere), f"{told} {PAST}"), best[1])
     return best if best[1].best.rmse <= MISFIT * best[1].selection.floor else (prepared, found)
 
 
