@@ -1,6 +1,8 @@
 """What came before a record is estimated from what the device remembers of it."""
 
+import importlib
 from itertools import pairwise
+from types import SimpleNamespace as Of
 
 import numpy as np
 import pytest
@@ -8,6 +10,8 @@ import pytest
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.search.past import begun, pasts, with_past, with_pasts
 from hysteresis_bench.signals import Dataset, Record
+
+diagnosing = importlib.import_module("hysteresis_bench.diagnosis.diagnose")
 
 PLAYS = np.array([0.3, 0.8, 1.5, 2.5])
 """Half-widths; the device is the sum of its input and of these plays, by their definition."""
@@ -83,3 +87,23 @@ def test_the_past_of_a_record_is_as_fast_as_the_record_and_not_scored():
     assert np.max(steps) <= 1.001 * np.median(np.abs(np.diff(record.input)))
     assert np.array_equal(ready.measured, record.measured)
     assert (ready.input[: ready.history].max(), ready.input[: ready.history].min()) == (2.0, -1.0)
+
+
+def test_the_pasts_that_are_kept_are_those_the_system_was_found_with(monkeypatch):
+    """The second estimate leaves no less: what is told has to be of the first."""
+    left, estimates = iter([1.1, 1.0, 1.0]), iter([{"a": 1.0}, {"a": 2.0}, {"h": 9.0}])
+
+    def anew(ready, question):
+        rmse, names = next(left), {object()}  # never the same names: it is not settled by them
+        best = Of(rmse=rmse, names=names)
+        return ready, Of(best=best, final=best, selection=Of(floor=1.0), thin=Of(fitted=lambda _: ((), ())))
+
+    monkeypatch.setattr(diagnosing, "_anew", anew)
+    monkeypatch.setattr(diagnosing, "pasts", lambda *_: next(estimates))
+    monkeypatch.setattr(diagnosing, "with_pasts", lambda _, known: known)
+    monkeypatch.setattr(diagnosing, "without_beginnings", lambda _: "cut")
+    monkeypatch.setattr(diagnosing, "begun", lambda _: [])
+    prepared = Of(dataset=Dataset((measured("a", (1.0,), (0.5, -0.5, 1.0)),), ()), read_as=lambda records, _: records)
+    kept, found = diagnosing._in_mid_loop(prepared, None, (), None)
+    assert kept == {"a": 1.0, "h": 9.0}
+    assert found.best.rmse == 1.0
