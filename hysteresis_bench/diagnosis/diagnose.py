@@ -110,7 +110,8 @@ def _diagnosed(dataset: Dataset, question: Question, laws: Sequence[str]) -> Dia
         if again.best.rmse < ALIKE * found.best.rmse:
             prepared, found = finer, again
     on_step(Step(f"{law}: the records' beginnings"))
-    if (spare := only_in_beginnings(found)) is not None:
+    # what needs no hysteresis remembers nothing of what came before
+    if evidence.memory.needed and (spare := only_in_beginnings(found)) is not None:
         prepared, found = _in_mid_loop(prepared, found, spare, question)
     on_step(Step(f"{law}: before and after"))
     stages = settle_offset(prepared, found, question)
