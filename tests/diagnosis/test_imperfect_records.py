@@ -72,7 +72,7 @@ def test_an_effect_that_acts_all_along_is_not_laid_on_the_beginnings():
 
 def test_nor_is_one_that_little_is_left_of_beyond_them():
     """Behind the beginnings the asymmetry is a third of the noise, and significant."""
-    settings = {"model": "prandtl-ishlinskii-modified", "hide": 2, "draw": 95014}
+    settings = {"model": "prandtl-ishlinskii-modified", "effects": ("asymmetry", "output-lag"), "draw": 95014}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=0).split(records[-1:])
     found = diagnose(data, Question("prandtl-ishlinskii-modified", options=DiagnosisOptions(jobs=1)))
@@ -80,10 +80,10 @@ def test_nor_is_one_that_little_is_left_of_beyond_them():
     assert not any("begin in mid-loop" in one for one in found.warnings)
 
 
-@pytest.mark.parametrize(("hide", "names"), [(0, ()), (1, ("transport-delay",))])
-def test_a_lag_that_only_smooths_a_noisy_input_is_not_named(hide, names):
+@pytest.mark.parametrize("names", [(), ("transport-delay",)])
+def test_a_lag_that_only_smooths_a_noisy_input_is_not_named(names):
     """It took the noise off in the first, and the place of the delay in the second."""
-    settings = {"model": "jiles-atherton", "hide": hide, "draw": 3563, "imperfect": "noisy-input"}
+    settings = {"model": "jiles-atherton", "effects": names, "draw": 3563, "imperfect": "noisy-input"}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=3).split(records[-1:])
     found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
@@ -108,15 +108,15 @@ def test_an_input_that_is_rough_by_itself_is_not_smoothed():
 
 
 @pytest.mark.parametrize(
-    ("law", "imperfect", "hide", "draw", "names"),
+    ("law", "imperfect", "draw", "names"),
     [
-        ("jiles-atherton", "coarse", 0, 3593, ()),  # a resonance was named that bends the loop as the steps do
-        ("bouc-wen", "coarse", 1, 74375, ("eddy-current",)),  # with a delay that is not there
-        ("bouc-wen", "uneven", 1, 3584, ("backlash",)),  # missed
+        ("jiles-atherton", "coarse", 3593, ()),  # a resonance was named that bends the loop as the steps do
+        ("bouc-wen", "coarse", 74375, ("eddy-current",)),  # with a delay that is not there
+        ("bouc-wen", "uneven", 3584, ("backlash",)),  # missed
     ],
 )
-def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, hide, draw, names):
-    settings = {"model": law, "hide": hide, "draw": draw, "imperfect": imperfect}
+def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, draw, names):
+    settings = {"model": law, "effects": names, "draw": draw, "imperfect": imperfect}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=201).split(records[-1:])
     found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
@@ -137,7 +137,7 @@ def test_many_samples_are_taken_as_they_are():
 
 def test_a_hum_that_passes_for_noise_is_named():
     """Of four samples a period it looks like noise of six times the noise, which is more than the bare law leaves."""
-    settings = {"model": "jiles-atherton", "hide": 1, "draw": 8132, "imperfect": "coarse"}
+    settings = {"model": "jiles-atherton", "effects": ("periodic-disturbance",), "draw": 8132, "imperfect": "coarse"}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=3).split(records[-1:])
     found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
