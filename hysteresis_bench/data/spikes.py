@@ -3,7 +3,8 @@
 A few of them decide a least-squares fit. They are found without a model, bridged, and told one by one: a sample is a
 spike where it lies off the cubic through its two neighbours on either side by much more than the record's samples
 usually do and than the output moves around it, where its neighbours agree with each other once it is bridged (those
-of a step do not), and where the input does nothing of the kind.
+of a step do not), and where the input does nothing of the kind. Two near each other hide each other: they are bridged
+together.
 """
 
 from __future__ import annotations
@@ -34,7 +35,8 @@ MOST = 0.02
 """Share of a record's samples beyond which they are no lone samples; then none is touched."""
 
 AROUND = 3
-"""Movements on either side that are looked at."""
+"""Movements on either side that are looked at; within one more, two spikes hide each other. Two samples next to each
+other are no lone ones: a pulse of that width may be the device's own."""
 
 MEDIAN = 0.6745
 """Of the absolute value of a standard normal variable."""
@@ -47,8 +49,10 @@ def without_spikes(dataset: Dataset) -> Dataset:
     records, notes = [], list(dataset.notes)
     for record in dataset.records:
         found = spikes(record)
-        records.append(_bridged(record, found) if found.size else record)
-        notes += [_words(record, found)] if found.size else []
+        if found.size and record.output is not None:
+            record = replace(record, output=_bridged(record.time, record.output, found.tolist()))
+            notes.append(_words(record, found))
+        records.append(record)
     return replace(dataset, records=tuple(records), notes=tuple(notes))
 
 
@@ -68,14 +72,16 @@ def spikes(record: Record) -> Array:
     off[[0, 1, -2, -1]] = 0.0  # these have no two neighbours on either side
     usual = max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(y)))))
     least = np.maximum(FAR * usual * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
-    found = []
-    for sample in np.argsort(-np.abs(off) / loudness, kind="stable").tolist():
-        if abs(off[sample]) <= least[sample]:
-            break
-        now = float(distances(time, y, [sample])[0][0])  # bridged ones no longer count
-        if abs(now) > least[sample] and _lone(time, y, sample, now):
-            y[sample] -= now
-            found += [] if _moved_by_the_input(record, sample) else [sample]
+    far = np.flatnonzero(np.abs(off) > least)
+    found: list[int] = []
+    for sample in far[np.argsort(-np.abs(off / loudness)[far], kind="stable")].tolist():
+        pairs = [[sample, int(other)] for other in far if 1 < abs(other - sample) <= AROUND + 1]
+        for together in ([sample], *pairs):
+            bridged = _bridged(time, y, together)
+            if all(_lone(time, bridged, one, float((y - bridged)[one]), float(least[one])) for one in together):
+                y = bridged  # these no longer count beside others
+                found += [one for one in together if not _moved_by_the_input(record, one)]
+                break
     return np.sort(np.array(found, int)) if len(found) <= max(1.0, MOST * y.size) else nothing
 
 
@@ -97,15 +103,13 @@ def distances(time: Array, values: Array, samples: list[int] | None = None) -> t
     return values[at] - np.sum(weights * values[others], axis=1), np.sqrt(1.0 + np.sum(weights**2, axis=1))
 
 
-def _lone(time: Array, y: Array, sample: int, off: float) -> bool:
+def _lone(time: Array, bridged: Array, sample: int, off: float, least: float) -> bool:
     """Does it lie off by more than the output moves around it, and do its neighbours agree without it?"""
-    low, high = max(sample - AROUND - 1, 0), min(sample + AROUND + 2, y.size)
-    moves = np.abs(np.concatenate([np.diff(y[low:sample]), np.diff(y[sample + 1 : high])]))
-    if abs(off) < MOTION * float(np.max(moves, initial=0.0)):
+    low, high = max(sample - AROUND - 1, 0), min(sample + AROUND + 2, bridged.size)
+    moves = np.abs(np.concatenate([np.diff(bridged[low:sample]), np.diff(bridged[sample + 1 : high])]))
+    if abs(off) <= max(least, MOTION * float(np.max(moves, initial=0.0))):
         return False
-    bridged = y.copy()
-    bridged[sample] -= off
-    beside = [k for k in range(max(sample - 2, 0), min(sample + 3, y.size)) if k != sample]
+    beside = [k for k in range(max(sample - 2, 0), min(sample + 3, bridged.size)) if k != sample]
     left, _ = distances(time, bridged, beside)
     return bool(np.all(np.abs(left) < AGREE * abs(off)))
 
@@ -118,16 +122,15 @@ def _moved_by_the_input(record: Record, sample: int) -> bool:
     return bool(np.max(moves[low:high], initial=0.0) > FAR * usual)
 
 
-def _bridged(record: Record, found: Array) -> Record:
-    """The cubic through good neighbours in the place of every spike."""
-    assert record.output is not None
-    output = record.output.copy()
-    for sample in found.tolist():
-        good = np.setdiff1d(np.arange(max(sample - 6, 0), min(sample + 7, output.size)), found)
+def _bridged(time: Array, y: Array, found: list[int]) -> Array:
+    """The values with the cubic through four good neighbours in the place of every spike."""
+    bridged = y.copy()
+    for sample in found:
+        good = np.setdiff1d(np.arange(max(sample - 6, 0), min(sample + 7, y.size)), found)
         near = np.sort(good[np.argsort(np.abs(good - sample), kind="stable")[:4]])
-        x = (record.time[near] - record.time[sample]) / (record.time[near[-1]] - record.time[near[0]])
-        output[sample] = np.polynomial.polynomial.polyfit(x, output[near], 3)[0]
-    return replace(record, output=output)
+        x = (time[near] - time[sample]) / (time[near[-1]] - time[near[0]])
+        bridged[sample] = np.polynomial.polynomial.polyfit(x, y[near], 3)[0]
+    return bridged
 
 
 def _words(record: Record, found: Array) -> str:

@@ -94,6 +94,22 @@ def test_near_spikes_are_bridged_and_an_end_without_neighbours_is_left_as_it_is(
     assert "2 samples lie far off their neighbours" in data.notes[0]
 
 
+@pytest.mark.parametrize("apart", [2, 3, 4, 5])
+@pytest.mark.parametrize("other", [-1.1, -0.4, 0.9, 1.0])
+def test_two_spikes_do_not_hide_each_other(apart, other):
+    output = np.sin(2.0 * np.pi * TIME) + noise(0.001)
+    spiked = output.copy()
+    spiked[[300, 300 + apart]] += [1.0, other]
+    assert spikes(record(spiked)).tolist() == [300, 300 + apart]
+
+
+@pytest.mark.parametrize("width", [2, 3, 4])
+def test_a_pulse_is_left_alone(width):
+    output = np.sin(2.0 * np.pi * TIME) + noise(0.001)
+    output[300 : 300 + width] += 1.0
+    assert spikes(record(output)).size == 0
+
+
 def test_a_cubic_is_followed_on_any_grid_and_the_sentence_names_the_time():
     time = np.sort(np.random.default_rng(1).random(40))
     assert np.max(np.abs(distances(time, 1.0 + time - 3.0 * time**3)[0])) < 1e-9
