@@ -14,7 +14,8 @@ def with_simplest_offset(selection: Selection, hypothesis: Hypothesis) -> Hypoth
     count = len(selection.candidates)
     if not selection.needed(none, hypothesis, count):
         return none
-    common = fitter.extended(none, registry.COMMON_OFFSET)
+    # without any offset the other values were bent far away
+    common = fitter.extended(none, registry.COMMON_OFFSET, hypothesis.values)
     if len(fitter.stack.records) == 1 or not selection.needed(common, hypothesis, count):
         return common
     return hypothesis
