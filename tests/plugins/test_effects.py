@@ -134,11 +134,26 @@ def test_a_stop_below_is_one_above_upside_down():
 )
 def test_the_search_for_a_stop_begins_at_its_level(name, side):
     held = record(output=side(2.0 * DRIVE, 0.4))
-    (start,) = registry.build("effects", name).starts([held], [np.zeros(held.time.size)])
+    start, *_ = registry.build("effects", name).starts([held], [np.zeros(held.time.size)])
     level = box(name, held)["level"]
     assert abs(start["level"]) == pytest.approx(0.4)
     assert level[0] <= start["level"] <= level[1]
     assert start["share"] == 1.0
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.7])  # from rest, and not
+@pytest.mark.parametrize("far", [-30.0, 4.0])
+def test_a_stop_is_sought_about_the_response_where_the_output_is_far_from_zero(phase, far):
+    drive = np.sin(2 * np.pi * TIME + phase)
+    held = record(drive=drive, output=np.minimum(2.0 * drive, 1.2) + far)
+    *_, start = registry.build("effects", "stop-above").starts([held], [np.zeros(held.time.size)])
+    low, high = box("stop-above", held)["level"]
+    assert start["level"] == pytest.approx(1.2, abs=0.3)
+    assert low < 1.1
+    assert high > 1.1
+    lowest, highest = (box("output-curve", held)[end] for end in ("lowest", "highest"))
+    assert lowest[1] < -1.6
+    assert highest[0] > 1.2
 
 
 def test_asymmetry_stays_monotone_in_its_box():

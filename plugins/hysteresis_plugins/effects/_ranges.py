@@ -15,6 +15,12 @@ FINEST = 0.02
 COARSE = 0.25
 """An input that moves by more than this share of its range in a typical step is not resolved in time."""
 
+AT_REST = 0.05
+"""Of the largest input, below which a record begins with none."""
+
+SHIFTED = 0.25
+"""Share of the output's range from which an output is taken to be off zero."""
+
 SAME, PURE = 0.2, 0.99
 """Share by which frequencies may differ, and share of the power within it, for an input of one frequency. A
 triangle has 0.986 in its fundamental: its harmonics are other frequencies."""
@@ -32,6 +38,27 @@ def output_span(records: Sequence[Record]) -> float:
 
 def largest_input(records: Sequence[Record]) -> float:
     return max(float(np.max(np.abs(record.input))) for record in records)
+
+
+def offset(records: Sequence[Record]) -> float:
+    """About how far the output is off, unit of the output, which the law's own response is not; 0 where that is less
+    than `SHIFTED` of its range, as the shape of a loop may be as much.
+
+    What is measured where the records begin at rest, with no input; where none does, where a straight line through all
+    samples has the input 0.
+    """
+    least = AT_REST * largest_input(records)
+    first = [one.measured[0] for one in records if not one.history and abs(one.input[0]) <= least]
+    if first:
+        found = float(np.median(first))
+    else:
+        u, y = (
+            np.concatenate(parts) for parts in zip(*((r.input[r.scored], r.measured) for r in records), strict=True)
+        )
+        spread = float(np.var(u))
+        slope = float(np.mean((u - u.mean()) * y)) / spread if spread else 0.0
+        found = float(y.mean()) - slope * float(u.mean())
+    return found if abs(found) > SHIFTED * output_span(records) else 0.0
 
 
 def fastest(records: Sequence[Record]) -> float:
@@ -115,4 +142,15 @@ def unresolved(records: Sequence[Record]) -> str:
     steps = [float(np.median(np.abs(np.diff(r.input))) / np.ptp(r.input)) for r in records if np.ptp(r.input) > 0]
     if min(steps) > COARSE:
         return f"the sampling is too coarse: in a typical step the input moves by {100 * min(steps):.0f} % of its range"
+    return ""
+
+
+def unresolved_curve(records: Sequence[Record]) -> str:
+    """The reason against dynamics with a curve of their own, or an empty string."""
+    if reason := unresolved(records):
+        return reason
+    if one_frequency(records):
+        return (
+            "at the one frequency of these records dynamics are a gain and a phase: more than a lag is not to be told"
+        )
     return ""

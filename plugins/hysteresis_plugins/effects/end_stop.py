@@ -13,7 +13,7 @@ from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
-from hysteresis_plugins.effects._ranges import output_span
+from hysteresis_plugins.effects._ranges import offset, output_span
 
 HIGHEST = 0.97
 """Quantile of the measured output at which a search begins: what a stop holds back lies together at its level."""
@@ -85,17 +85,17 @@ class StopAbove(Effect):
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Levels in the upper four fifths of the measured range."""
+        """Levels in the upper four fifths of the range, wherever its zero may be."""
         level, share = self.parameters
-        low, high = _level_at(records, 0.0), _level_at(records, 1.0)
-        return level.within(0.8 * low + 0.2 * high, high), share
+        levels = [at for share in (0.2, 1.0) for at in _on_the_way(records, share)]
+        return level.within(min(levels), max(levels)), share
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return "the output never moves" if output_span(records) == 0.0 else ""
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
         """A rigid stop where the highest outputs lie."""
-        return [{"level": _level_at(records, HIGHEST), "share": 1.0}]
+        return [{"level": level, "share": 1.0} for level in _at_quantile(records, HIGHEST)]
 
 
 @dataclass(frozen=True)
@@ -113,15 +113,27 @@ class StopBelow(StopAbove):
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Levels in the lower four fifths of the measured range."""
+        """Levels in the lower four fifths of the range, wherever its zero may be."""
         level, share = self.parameters
-        low, high = _level_at(records, 0.0), _level_at(records, 1.0)
-        return level.within(low, 0.2 * low + 0.8 * high), share
+        levels = [at for share in (0.0, 0.8) for at in _on_the_way(records, share)]
+        return level.within(min(levels), max(levels)), share
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
         """A rigid stop where the lowest outputs lie."""
-        return [{"level": _level_at(records, 1.0 - HIGHEST), "share": 1.0}]
+        return [{"level": level, "share": 1.0} for level in _at_quantile(records, 1.0 - HIGHEST)]
 
 
-def _level_at(records: Sequence[Record], quantile: float) -> float:
-    return float(np.quantile(np.concatenate([record.measured for record in records]), quantile))
+def _on_the_way(records: Sequence[Record], share: float) -> list[float]:
+    """The levels at this share of the way from the lowest output to the highest."""
+    y = np.concatenate([record.measured for record in records])
+    return _of_the_response(records, float(np.min(y) + share * np.ptp(y)))
+
+
+def _at_quantile(records: Sequence[Record], quantile: float) -> list[float]:
+    y = np.concatenate([record.measured for record in records])
+    return _of_the_response(records, float(np.quantile(y, quantile)))
+
+
+def _of_the_response(records: Sequence[Record], output: float) -> list[float]:
+    """Where the response may be at this output: the stop acts before an offset, which is known about only."""
+    return [output, output - offset(records)] if offset(records) else [output]

@@ -39,6 +39,11 @@ def output_span(records: Sequence[Record]) -> float:
     return max((float(np.ptp(record.measured)) for record in records if record.output is not None), default=0.0) or 1.0
 
 
+def largest_output(records: Sequence[Record]) -> float:
+    """Largest |output| in one record, or its span where that is less: an output far from zero has an offset."""
+    return max(min(float(np.max(np.abs(record.measured))), float(np.ptp(record.measured))) for record in records)
+
+
 def steepness(records: Sequence[Record]) -> float:
     """Span of the output over that of the input."""
     return output_span(records) / input_span(records)

@@ -28,6 +28,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.models._data import largest_output
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
 
 
@@ -105,7 +106,7 @@ class FreeEnergy(Model):
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The box of fields and magnetizations of the order of 1, scaled to the ranges of the records."""
         field = max(float(np.max(np.abs(record.input))) for record in records) or 1.0
-        output = max(float(np.max(np.abs(record.measured))) for record in records) or 1.0
+        output = largest_output(records) or 1.0
         scales = {"M_R": output, "eta": field / output, "H_c": field, "b": field, "c": 1.0, "alpha": field**-2}
         return tuple(q.within(q.lower * scales[q.name], q.upper * scales[q.name]) for q in self.parameters)
 

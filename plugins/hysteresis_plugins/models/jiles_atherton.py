@@ -12,7 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, Example, Model, Property
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.models._data import falling
+from hysteresis_plugins.models._data import falling, largest_output
 from hysteresis_plugins.models._eddy_current import OFFERS, with_eddy_current
 
 FIELD_PER_MAGNETIZATION = "{input} mu0/{output}"
@@ -67,12 +67,13 @@ class JilesAtherton(Model):
         return eddy_jiles_atherton(time, H, coefficient, p.alpha, p.a, p.k, p.M_s, p.c, self.clamped)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Log-scaled, from the largest |input| and |output|; c is held to its physical range, up to 1.
+        """Log-scaled, from the largest |input| and |output|, or the output's span where that is less; c is held to its
+        physical range, up to 1.
 
         alpha M_s, the field of the magnetization itself, reaches the applied field at the largest M.
         """
         H = max(float(np.max(np.abs(record.input))) for record in records) or 1.0
-        M = max(float(np.max(np.abs(record.measured))) for record in records) / (4e-7 * np.pi) or 1.0
+        M = largest_output(records) / (4e-7 * np.pi) or 1.0
         bounds = {
             "alpha": (1e-4 * H / M, H / M),
             "a": (1e-2 * H, 1e1 * H),
@@ -86,6 +87,11 @@ class JilesAtherton(Model):
         u = np.concatenate([record.input[record.scored] for record in records])
         y = np.concatenate([record.measured for record in records])
         found = [*falling(records, "Jiles-Atherton only rises")]
+        if 0.0 < np.ptp(y) < 4e-7 * np.pi * np.ptp(u):
+            found.append(
+                "The output, mu0 (H + M), moves by less than mu0 H alone, 1.26e-6 of the input as a number. Give it "
+                "in a smaller unit, or the input in a larger one."
+            )
         low, span = u.min(), np.ptp(u)
         if span > 0.0 and abs(low + span / 2) > OFF_CENTRE * span and self._saturates(u, y):
             found.append(

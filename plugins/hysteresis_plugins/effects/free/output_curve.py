@@ -13,7 +13,7 @@ from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
-from hysteresis_plugins.effects._ranges import output_span
+from hysteresis_plugins.effects._ranges import offset, output_span
 from hysteresis_plugins.effects.free._spline import POINTS, add, bent, extremes, narrow
 
 BEND = bent("bend")
@@ -48,8 +48,8 @@ class OutputCurve(FreeForm):
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Bends of up to half the range."""
-        low, high = extremes([record.measured for record in records])
+        """Over the measured range, without an offset that is to be seen; bends of up to half of it."""
+        low, high = extremes([record.measured - offset(records) for record in records])
         lowest, highest, *bends = self.parameters
         span = (high - low) or 1.0
         return (

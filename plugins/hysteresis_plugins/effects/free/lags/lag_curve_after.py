@@ -10,7 +10,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.effects._ranges import input_span, output_span, unresolved
+from hysteresis_plugins.effects._ranges import input_span, output_span, unresolved_curve
 from hysteresis_plugins.effects.free.lags._rate import LIMITS, behind, box, curve, parameters
 
 
@@ -42,7 +42,7 @@ class LagCurveAfter(FreeForm):
         return box(self.parameters, records, output_span(records) / input_span(records))
 
     def inapplicable(self, records: Sequence[Record]) -> str:
-        return unresolved(records)
+        return unresolved_curve(records)
 
     def curve(self, p: Any) -> Curve:
         return curve(p, "the output", "{output}")

@@ -11,7 +11,7 @@ from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
-from hysteresis_plugins.effects._ranges import unresolved
+from hysteresis_plugins.effects._ranges import unresolved_curve
 from hysteresis_plugins.effects.free.lags._spectrum import PARAMETERS, RANGES, box, late, step_response
 
 
@@ -43,7 +43,7 @@ class LagsAfter(FreeForm):
         return box(records)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
-        return unresolved(records)
+        return unresolved_curve(records)
 
     def curve(self, p: Any) -> Curve:
         return step_response(p, "output")

@@ -12,7 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.effects._ranges import unresolved
+from hysteresis_plugins.effects._ranges import unresolved_curve
 from hysteresis_plugins.effects.free.lags._spectrum import PARAMETERS, RANGES, box, late, step_response
 
 
@@ -42,7 +42,7 @@ class LagsBefore(FreeForm):
         return box(records)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
-        return unresolved(records)
+        return unresolved_curve(records)
 
     def curve(self, p: Any) -> Curve:
         return step_response(p, "what acts")
