@@ -43,11 +43,11 @@ def hypothesis(rmse=0.1):
 @pytest.fixture
 def here(tmp_path, monkeypatch):
     """A curve of a delayed input, and one of the input itself, in the folder that we are in. They need no other law,
-    nor, noisy as they are, more steps than samples: both would take long."""
+    no past before they begin, nor, noisy as they are, more steps than samples: all that would take long."""
     monkeypatch.chdir(tmp_path)
-    t, noise = np.arange(120) / 30.0, np.random.default_rng(1).standard_normal(120)
-    for name, delay, size in (("loop", 0.06, 0.005), ("curve", 0.0, 0.02)):
-        u, late = (np.sin(2 * np.pi * past) * (0.5 + past / 8.0) for past in (t, t - delay))
+    t, noise = np.arange(240) / 60.0, np.random.default_rng(2).standard_normal(240)
+    for name, delay, size in (("loop", 0.06, 0.01), ("curve", 0.0, 0.02)):
+        u, late = ((1.0 - np.cos(2 * np.pi * s)) * (0.5 + s / 8.0) for s in (t, np.maximum(t - delay, 0.0)))
         rows = zip(t, u, late + 0.2 * late**3 + size * noise, strict=True)
         lines = [",".join(f"{value:.6f}" for value in row) for row in rows]
         (tmp_path / f"{name}.csv").write_text("time,input,output\n" + "\n".join(lines) + "\n", encoding="utf-8")
