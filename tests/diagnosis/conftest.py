@@ -30,5 +30,5 @@ def _names_only() -> Iterator[None]:
 @pytest.fixture(scope="session")
 def names_only():
     """Within it, searches try no free form: four fifths of their time where the law is wrong, and dropped in the end
-    (`test_a_wrong_law_is_told_and_nothing_is_named_in_its_place` and `test_a_delay_longer_than_any_that_is_tried`)."""
+    (`test_a_wrong_law_is_told_and_nothing_is_named_in_its_place`)."""
     return _names_only

@@ -79,13 +79,14 @@ def test_an_output_that_is_cut_off():
     assert any("saturation.sharpness lies at the edge" in warning for warning in found.warnings)
 
 
-def test_a_delay_longer_than_any_that_is_tried():
+def test_a_delay_longer_than_any_that_is_tried(names_only):
     """The box ends at half a period of the slowest record: whatever is named there is doubted."""
 
     def late(record):
         return replace(record, output=np.interp(record.time - 0.7, record.time, record.output))
 
-    found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 4), BARE)
+    with names_only():
+        found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 4), BARE)
     assert found.verdict == "unexplained-residual"
     assert not found.effects or "may lack" in found.headline
 
