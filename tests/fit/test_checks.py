@@ -60,6 +60,13 @@ def test_a_law_asks_for_an_offset_only_where_no_effect_has_it():
         assert advice_with(dahl, (effect,), [record]) == ()
 
 
+def test_jiles_atherton_says_where_its_units_cannot_be_right():
+    law = registry.build("models", "jiles-atherton", {})
+    (told,) = advice_with(law, (), [record_of(1e-6 * DRIVE)])
+    assert "moves by less than mu0 H alone" in told
+    assert advice_with(law, (), [record_of(2e-6 * DRIVE)]) == ()
+
+
 def test_an_offset_leaves_the_other_advice_of_a_law_as_it_is():
     falls, bouc_wen = record_of(50.0 - DRIVE), registry.build("models", "bouc-wen", {})
     (told,) = advice_with(bouc_wen, ("bias",), [falls])
