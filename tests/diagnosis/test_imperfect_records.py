@@ -70,12 +70,13 @@ def test_an_effect_that_acts_all_along_is_not_laid_on_the_beginnings():
     assert not any("begin in mid-loop" in one for one in found.warnings)
 
 
-def test_nor_is_one_that_little_is_left_of_beyond_them():
+def test_nor_is_one_that_little_is_left_of_beyond_them(names_only):
     """Behind the beginnings the asymmetry is a third of the noise, and significant."""
     settings = {"model": "prandtl-ishlinskii-modified", "effects": ("asymmetry", "output-lag"), "draw": 95014}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=0).split(records[-1:])
-    found = diagnose(data, Question("prandtl-ishlinskii-modified", options=DiagnosisOptions(jobs=1)))
+    with names_only():
+        found = diagnose(data, Question("prandtl-ishlinskii-modified", options=DiagnosisOptions(jobs=1)))
     assert found.effects == ("output-lag", "asymmetry")
     assert not any("begin in mid-loop" in one for one in found.warnings)
 
@@ -115,11 +116,12 @@ def test_an_input_that_is_rough_by_itself_is_not_smoothed():
         ("bouc-wen", "uneven", 3584, ("backlash",)),  # missed
     ],
 )
-def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, draw, names):
+def test_no_name_makes_up_for_what_lies_between_few_samples(law, imperfect, draw, names, names_only):
     settings = {"model": law, "effects": names, "draw": draw, "imperfect": imperfect}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=201).split(records[-1:])
-    found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
+    with names_only():
+        found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
     assert found.effects == names
     assert any("The samples are few for this law: it was simulated with 4 steps" in one for one in found.warnings)
     assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
@@ -128,6 +130,19 @@ def test_nothing_makes_up_for_what_lies_between_few_samples(law, imperfect, draw
     sound = measure("hidden-effects", "stairs", settings={**settings, "imperfect": ""}, seed=201)
     (predicted,), (record,) = found.model.predict(sound).records, sound.records
     assert np.sqrt(np.mean((predicted.output - record.output) ** 2)) < 1.15 * data.hidden["noise"]
+
+
+def test_a_lag_is_named_on_its_side_of_the_law_where_rates_differ(names_only):
+    """What lies between the samples changes the response by a quarter of the noise, and named a resonance."""
+    settings = {"model": "jiles-atherton", "effects": ("asymmetry", "output-lag"), "draw": 12, "noise": 0.004}
+    made = measure("hidden-effects", *RECORDS, settings=settings, seed=3)
+    records = (record.take(slice(None, None, k)) for record, k in zip(made.records, (1, 2, 3, 1), strict=True))
+    with names_only():
+        found = diagnose(
+            Dataset(tuple(records), RECORDS[-1:]), Question("jiles-atherton", options=DiagnosisOptions(jobs=1))
+        )
+    assert found.effects == ("asymmetry", "output-lag")
+    assert found.after.held_out.rmse < 1.1 * made.hidden["noise"]
 
 
 def test_many_samples_are_taken_as_they_are():

@@ -91,12 +91,14 @@ def asked(accept_terms: bool, fits: Journal) -> Question:
 
 
 @pytest.fixture(scope="module")
-def described(odd, fits):
-    return diagnose(odd, asked(accept_terms=True, fits=fits))
+def described(odd, fits, names_only):
+    with names_only():
+        return diagnose(odd, asked(accept_terms=True, fits=fits))
 
 
-def test_accepted_terms_bring_the_error_down(odd, described, fits):
-    plain = diagnose(odd, asked(accept_terms=False, fits=fits))
+def test_accepted_terms_bring_the_error_down(odd, described, fits, names_only):
+    with names_only():
+        plain = diagnose(odd, asked(accept_terms=False, fits=fits))
     assert "description" not in plain.effects
     assert any(part.term.kind == "branch" for part in plain.equation.terms)
     assert described.effects == (*plain.effects, "description")
