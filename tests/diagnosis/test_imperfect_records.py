@@ -132,19 +132,6 @@ def test_no_name_makes_up_for_what_lies_between_few_samples(law, imperfect, draw
     assert np.sqrt(np.mean((predicted.output - record.output) ** 2)) < 1.15 * data.hidden["noise"]
 
 
-def test_a_lag_is_named_on_its_side_of_the_law_where_rates_differ(names_only):
-    """What lies between the samples changes the response by a quarter of the noise, and named a resonance."""
-    settings = {"model": "jiles-atherton", "effects": ("asymmetry", "output-lag"), "draw": 12, "noise": 0.004}
-    made = measure("hidden-effects", *RECORDS, settings=settings, seed=3)
-    records = (record.take(slice(None, None, k)) for record, k in zip(made.records, (1, 2, 3, 1), strict=True))
-    with names_only():
-        found = diagnose(
-            Dataset(tuple(records), RECORDS[-1:]), Question("jiles-atherton", options=DiagnosisOptions(jobs=1))
-        )
-    assert found.effects == ("asymmetry", "output-lag")
-    assert found.after.held_out.rmse < 1.1 * made.hidden["noise"]
-
-
 def test_many_samples_are_taken_as_they_are():
     found, _ = found_in("")
     assert not any("The samples are few" in one for one in found.warnings)
