@@ -156,6 +156,15 @@ def test_a_stop_is_sought_about_the_response_where_the_output_is_far_from_zero(p
     assert highest[0] > 1.2
 
 
+def test_a_bias_reaches_as_far_as_a_response_to_an_input_far_from_zero():
+    """A displacement of 0 to 2, zeroed at a bias of 100 V."""
+    drive = 100.0 + np.sin(2 * np.pi * TIME)
+    low, high = box("bias", record(drive=drive, output=drive - 99.0))["offset"]
+    assert low < -99.0
+    low, high = box("bias", record(drive=drive - 100.0, output=drive - 99.0))["offset"]
+    assert (low, high) == pytest.approx((-2.0, 4.0), abs=1e-3)
+
+
 def test_asymmetry_stays_monotone_in_its_box():
     low, high = box("asymmetry", record())["curvature"]
     rising = np.linspace(-3.5, 3.5, 200)

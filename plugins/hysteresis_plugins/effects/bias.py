@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import input_span, largest_input
 
 
 @dataclass(frozen=True)
@@ -35,6 +36,8 @@ class Bias(Effect):
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         low = min(float(np.min(record.measured)) for record in records)
         high = max(float(np.max(record.measured)) for record in records)
+        # the constant may lie as far outside the measured range as the range is wide, and as far as a response in
+        # proportion to an input far from zero
         span = (high - low) or 1.0
-        # the constant may lie as far outside the measured range as the range is wide
-        return (self.parameters[0].within(low - span, high + span),)
+        far = span * max(1.0, largest_input(records) / (input_span(records) or 1.0))
+        return (self.parameters[0].within(low - far, high + far),)
