@@ -10,6 +10,7 @@ together.
 from __future__ import annotations
 
 from dataclasses import replace
+from math import prod
 
 import numpy as np
 
@@ -37,6 +38,12 @@ MOST = 0.02
 AROUND = 3
 """Movements on either side that are looked at; within one more, two spikes hide each other. Two samples next to each
 other are no lone ones: a pulse of that width may be the device's own."""
+
+NEAR = 12
+"""Samples on either side that what is asked of a pair of spikes reaches at most."""
+
+SEEN_AT = 5
+"""Samples that lie far off their cubics because of one spike, at most."""
 
 MEDIAN = 0.6745
 """Of the absolute value of a standard normal variable."""
@@ -73,13 +80,18 @@ def spikes(record: Record) -> Array:
     usual = max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(y)))))
     least = np.maximum(FAR * usual * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
     far = np.flatnonzero(np.abs(off) > least)
+    paired = far.size <= SEEN_AT * MOST * y.size  # more are no few spikes' doing
     found: list[int] = []
     for sample in far[np.argsort(-np.abs(off / loudness)[far], kind="stable")].tolist():
-        pairs = [[sample, int(other)] for other in far if 1 < abs(other - sample) <= AROUND + 1]
-        for together in ([sample], *pairs):
-            bridged = _bridged(time, y, together)
-            if all(_lone(time, bridged, one, float((y - bridged)[one]), float(least[one])) for one in together):
-                y = bridged  # these no longer count beside others
+        first, last = np.searchsorted(far, [sample - AROUND - 1, sample + AROUND + 2])
+        beside = [other for other in far[first:last].tolist() if paired and abs(other - sample) > 1]
+        for together in ([sample], *([sample, other] for other in beside)):
+            start = max(sample - NEAR, 0)
+            near, at = slice(start, sample + NEAR + 1), [one - start for one in together]
+            bridged = _bridged(time[near], y[near], at)
+            left = y[near] - bridged
+            if all(_lone(time[near], bridged, k, float(left[k]), float(least[start + k])) for k in at):
+                y[near] = bridged  # these no longer count beside others
                 found += [one for one in together if not _moved_by_the_input(record, one)]
                 break
     return np.sort(np.array(found, int)) if len(found) <= max(1.0, MOST * y.size) else nothing
@@ -124,12 +136,15 @@ def _moved_by_the_input(record: Record, sample: int) -> bool:
 
 def _bridged(time: Array, y: Array, found: list[int]) -> Array:
     """The values with the cubic through four good neighbours in the place of every spike."""
-    bridged = y.copy()
+    bridged, bad = y.copy(), {*found}
     for sample in found:
-        good = np.setdiff1d(np.arange(max(sample - 6, 0), min(sample + 7, y.size)), found)
-        near = np.sort(good[np.argsort(np.abs(good - sample), kind="stable")[:4]])
-        x = (time[near] - time[sample]) / (time[near[-1]] - time[near[0]])
-        bridged[sample] = np.polynomial.polynomial.polyfit(x, y[near], 3)[0]
+        good = [k for k in range(max(sample - 6, 0), min(sample + 7, y.size)) if k not in bad]
+        near = sorted(good, key=lambda k: abs(k - sample))[:4]
+        away = [float(time[k] - time[sample]) for k in near]
+        bridged[sample] = sum(
+            float(y[k]) * prod(other / (other - own) for other in away if other != own)
+            for k, own in zip(near, away, strict=True)
+        )
     return bridged
 
 
