@@ -15,10 +15,6 @@ from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import offset, output_span
 
-HIGHEST = 0.97
-"""Quantile of the measured output at which a search begins: what a stop holds back lies together at its level."""
-
-
 LEVEL = 0.4
 """Of the largest response, where made data meet the stop, so that smaller drives and one-sided ones reach it."""
 
@@ -67,6 +63,10 @@ class StopAbove(Effect):
 
     acts = "output"
     family = "curve of the output"
+    levels: ClassVar[tuple[float, float]] = (0.2, 1.0)
+    """That are searched, in shares of the way from the lowest measured output to the highest."""
+    held_back: ClassVar[float] = 0.97
+    """Quantile of the measured output at which a search begins: what a stop holds back lies together at its level."""
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "saturation": "where the output reaches one end of its range only, both flatten that end",
     }
@@ -85,23 +85,27 @@ class StopAbove(Effect):
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Levels in the upper four fifths of the range, wherever its zero may be."""
+        """Levels in four fifths of the measured range, wherever its zero may be."""
         level, share = self.parameters
-        levels = [at for share in (0.2, 1.0) for at in _on_the_way(records, share)]
-        return level.within(min(levels), max(levels)), share
+        y = _outputs(records)
+        found = [at for way in self.levels for at in _of_the_response(records, float(np.min(y) + way * np.ptp(y)))]
+        return level.within(min(found), max(found)), share
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return "the output never moves" if output_span(records) == 0.0 else ""
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """A rigid stop where the highest outputs lie."""
-        return [{"level": level, "share": 1.0} for level in _at_quantile(records, HIGHEST)]
+        """A rigid stop where the outputs end that it would hold back."""
+        levels = _of_the_response(records, float(np.quantile(_outputs(records), self.held_back)))
+        return [{"level": level, "share": 1.0} for level in levels]
 
 
 @dataclass(frozen=True)
 class StopBelow(StopAbove):
     """Below a level the output goes on by a share less: `stop-above` on the other side."""
 
+    levels = (0.0, 0.8)
+    held_back = 1.0 - StopAbove.held_back
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_from_below(_elastic),)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_from_below(_rounded), _from_below(_padded))
 
@@ -112,26 +116,9 @@ class StopBelow(StopAbove):
         stop_below(output, p.level, p.share)
         return output
 
-    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Levels in the lower four fifths of the range, wherever its zero may be."""
-        level, share = self.parameters
-        levels = [at for share in (0.0, 0.8) for at in _on_the_way(records, share)]
-        return level.within(min(levels), max(levels)), share
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """A rigid stop where the lowest outputs lie."""
-        return [{"level": level, "share": 1.0} for level in _at_quantile(records, 1.0 - HIGHEST)]
-
-
-def _on_the_way(records: Sequence[Record], share: float) -> list[float]:
-    """The levels at this share of the way from the lowest output to the highest."""
-    y = np.concatenate([record.measured for record in records])
-    return _of_the_response(records, float(np.min(y) + share * np.ptp(y)))
-
-
-def _at_quantile(records: Sequence[Record], quantile: float) -> list[float]:
-    y = np.concatenate([record.measured for record in records])
-    return _of_the_response(records, float(np.quantile(y, quantile)))
+def _outputs(records: Sequence[Record]) -> Array:
+    return np.concatenate([record.measured for record in records])
 
 
 def _of_the_response(records: Sequence[Record], output: float) -> list[float]:
