@@ -16,10 +16,12 @@ COARSE = 0.25
 """An input that moves by more than this share of its range in a typical step is not resolved in time."""
 
 AT_REST = 0.05
-"""Of the largest input, below which a record begins with none."""
+"""Of the largest input, below which a record begins with none. Records begin at rest or well away from it: half or
+twice of it made no difference yet."""
 
 SHIFTED = 0.25
-"""Share of the output's range from which an output is taken to be off zero."""
+"""Share of the output's range from which an output is taken to be off zero. Of six made cases, stops with offsets of
+0.2 to 1 range, half of it changed none; with twice it a stop at an offset of 0.4 was missed."""
 
 SAME, PURE = 0.2, 0.99
 """Share by which frequencies may differ, and share of the power within it, for an input of one frequency. A
