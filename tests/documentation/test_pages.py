@@ -114,6 +114,8 @@ def test_the_readme_begins_with_what_the_kept_results_say():
     rows = kept.measurements()
     over = rows["held_out_after"] / rows["noise"]
     fell = int((rows["held_out_after"] < rows["held_out_before"]).sum())
+    page = (ROOT / "results" / "real-measurements" / "report.html").read_text(encoding="utf-8")
+    below, questions = re.findall(r"On (\d+) of (\d+) questions to measured devices", page)[0]
     for said in (
         f"Of {of} cases with one to three effects hidden",
         f"and nothing else, in {right};",
@@ -122,5 +124,6 @@ def test_the_readme_begins_with_what_the_kept_results_say():
         f"ends at {over.min():.3g} to {over.max():.3g} times the noise, in the median at {over.median():.3g} times",
         f"nothing else in {kept.named(False)} cases",
         f"claimed in {kept.claimed_on_clean(False)} with nothing hidden",
+        f"cubic polynomial's on {below} of {questions} questions to measured devices",
     ):
         assert said in begins
