@@ -16,7 +16,7 @@ from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
-from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare, settled
+from hysteresis_bench.diagnosis.laws.comparison import BASELINE, Comparison, compare
 from hysteresis_bench.diagnosis.preparation import Prepared, prepare, with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
@@ -75,13 +75,8 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
         return _diagnosed(dataset, question, _of_few_parameters(registry.names("models")))
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
-    # before a lone record is split: what is left of it is no loop
-    asked = question.options
-    ready, told = settled(dataset.map(question.preparation.skipped), asked.settle, asked.input_offset)
-    fitted, _ = with_held_out(ready)
-    laws = compare(fitted, replace(question, options=replace(asked, skip=0.0, settle=False)), effects_follow=True)
-    laws = replace(laws, notes=(*laws.notes, *told))
-    promising = _promising(laws, len(fitted.fitted) > 1)
+    laws = compare(dataset, question, effects_follow=True)
+    promising = _promising(laws, len(with_held_out(dataset)[0].fitted) > 1)
     found = [_diagnosed(dataset, replace(question, model=law), promising) for law in promising]
     best = _preferred(found)
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))

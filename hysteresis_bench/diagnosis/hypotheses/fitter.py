@@ -123,6 +123,11 @@ class Fitter:
         found = self._finished(problem, hypothesis.names, np.column_stack(starts))
         return found if found.rmse < hypothesis.rmse else hypothesis
 
+    def followed(self, hypothesis: Hypothesis) -> Hypothesis:
+        """Downhill from where it was found, as on records that were prepared otherwise."""
+        problem = self.stack.problem(hypothesis.names)
+        return self._finished(problem, hypothesis.names, point_of(problem, hypothesis.values)[:, None])
+
     def polished(self, hypothesis: Hypothesis) -> Array:
         """Values (dimension,) in units, from those of a hypothesis that was fitted to thinned records."""
         problem = self.stack.problem(hypothesis.names)

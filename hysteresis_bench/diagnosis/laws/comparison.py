@@ -21,14 +21,14 @@ from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.choice import choose
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
-from hysteresis_bench.diagnosis.laws.law import Law, Laws, both
-from hysteresis_bench.diagnosis.preparation import thinned
+from hysteresis_bench.diagnosis.laws.law import Law, both
+from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
-from hysteresis_bench.fit.settling import open_loops, passed
+from hysteresis_bench.fit.settling import FIRST_REPEATS, open_loops
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, open_way
 from hysteresis_bench.kernels.resources import economical
@@ -42,8 +42,7 @@ OPEN = (
     "The record that was fitted closes no loop: nothing in it tells how a law comes back. Do not believe one beyond "
     "these samples, and record a whole cycle."
 )
-PASSES = 8
-"""Of a closed loop before it is scored, with `settle`. A fit finds out how many its law needs; here all get as many."""
+PASSED = f"Every loop was passed until its law closed it, {FIRST_REPEATS} to {MOST} times, before it was scored."
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,12 +75,15 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     """Fit every law that the question's options name to the fitted records, and predict what it did not see.
 
     Where none is named, those are left out that the data exclude. Held-out records are predicted and never choose.
-    effects_follow : effects will be sought around the laws. Raises UserError telling every fault at once.
+    effects_follow : effects will be sought around the laws, and a part is held out where none is.
+    Raises UserError telling every fault at once.
     """
-    options, (seen, told) = question.options, _prepared(dataset, question)
+    options, ready = question.options, _prepared(dataset, question)
+    settles = settled_periods(ready.fitted, options.settle)
+    passing = Passing(ready, settles, effects_follow, tuple(question.effects), options.seed)
+    thin, seen = passing.begun, passing.begun.dataset
     views = views_of(seen.fitted)
     floor = floor_of(views, pooled_noise([view.noise for view in views]))
-    thin = Laws(thinned(views), seen, tuple(question.effects), options.seed)
     asked = views_of(thin.records)
     found, out = structure(asked), judged(thin.records, seen)
     names, reasons = tuple(options.laws), dict[str, str]()
@@ -91,7 +93,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else REACHABLE)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
-    with Workers[Law](thin, jobs, options.on_step, options.kept) as workers:
+    with Workers[Law](passing, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
@@ -109,25 +111,15 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         words += f" Of these records {found.of('sense').words}"
     rows = [*(_row(law) for law in laws), _baseline_row(plain, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
+    told = ((SAID,) if options.settle is None else ()) + (PASSED,) if settles else ()
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
     return Comparison(table, chosen, words, floor, dict(dataset.units), (*_notes(seen, options), *told), found)
 
 
-def settled(dataset: Dataset, asked: bool | None, rest: float = 0.0) -> tuple[Dataset, tuple[str, ...]]:
-    """Closed loops passed before they are scored, as `asked` or as the fitted records say, and what to tell of it.
-
-    rest : the input of a device at rest
-    """
-    if not settled_periods(dataset.fitted, asked):
-        return dataset, ()
-    said = f"Every loop was passed {PASSES} times before it was scored."
-    return dataset.map(lambda record: passed(record, PASSES, rest)), ((SAID,) if asked is None else ()) + (said,)
-
-
-def _prepared(dataset: Dataset, question: Question) -> tuple[Dataset, tuple[str, ...]]:
-    """As the laws see it, and what to tell of it."""
+def _prepared(dataset: Dataset, question: Question) -> Dataset:
+    """As the laws see it."""
     models, known, settle = question.options.laws, registry.names("models"), question.options.settle
     faults = [f'no model "{name}". {nearest(name, known)}' for name in models if name not in known]
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
@@ -136,7 +128,7 @@ def _prepared(dataset: Dataset, question: Question) -> tuple[Dataset, tuple[str,
     seen = dataset if faults else without_spikes(dataset).map(question.preparation)
     if faults := faults or record_faults(seen.fitted, "compare"):
         raise UserError("compare", faults)
-    return settled(seen, settle)
+    return seen
 
 
 def _notes(seen: Dataset, options: DiagnosisOptions) -> tuple[str, ...]:

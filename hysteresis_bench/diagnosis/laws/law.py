@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.settling import gap_after
 from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing, solvable
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
@@ -43,6 +44,8 @@ class Law:
     seconds : CPU time;  reason : why there is no fit, "" where there is one
     ahead : errors of a lone record's last part, by a fit to what came before; empty where there are several
     outside : share of the fitted outputs' range by which it leaves it on inputs that are held out
+    gap : how far the last two passes of a loop that is passed before it is scored differ, a share of its range
+    found : as it was fitted to thinned records; None where it was not, or is smooth
     """
 
     model: str
@@ -54,6 +57,8 @@ class Law:
     seconds: float = 0.0
     ahead: Array = field(default_factory=lambda: np.empty(0))
     outside: float = 0.0
+    gap: float = 0.0
+    found: Hypothesis | None = field(default=None, repr=False)
 
     @property
     def rmse(self) -> float:
@@ -67,19 +72,22 @@ class Laws:
 
     records : thinned, that a law is searched on;  dataset : all samples, and what is held out
     effects : known to act around every law
+    loops : whole, of which the fitted records are what is fitted;  passes : of them before they are scored, 0 for none
     """
 
     records: tuple[Record, ...]
     dataset: Dataset
     effects: tuple[str, ...] = ()
     seed: int = 0
+    loops: tuple[Record, ...] = ()
+    passes: int = 0
 
     def fitter(self, name: str, records: Sequence[Record], run: int = 0) -> Fitter:
         """Of one law, with its default settings; run : changes the seed."""
         return Fitter(Stack(registry.build("models", name, {}), tuple(records), self.effects), self.seed + run)
 
-    def law(self, name: str) -> Law:
-        """Fitted, or with the reason why not."""
+    def law(self, name: str, known: Hypothesis | None = None) -> Law:
+        """Fitted, or with the reason why not; from a `known` fit to fewer passes where there is one."""
         begun = time.process_time()
         if faults := around_faults(name, self.effects):
             return Law(name, " ".join(faults))
@@ -89,7 +97,7 @@ class Laws:
         problem = fitter.stack.problem({registry.RECORD_OFFSET})
         if isinstance(problem.system.model, Rough):
             return self._smoothed(name, problem, begun)
-        found = self._found(name)
+        found = self._found(name) if known is None else fitter.followed(known)
         count = problem.space.dimension
         if found.rmse >= 0.999 * _spread(self.records):
             return Law(name, "it follows these records no better than a constant.", parameters=count)
@@ -98,7 +106,8 @@ class Laws:
         ahead = errors_without(problem, point, Blocks(~last, ~last, 1))[last, 0] if last.any() else unseen[last]
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
-        return self._law(name, system, values, unseen=unseen, parameters=count, begun=begun, ahead=ahead)
+        law = self._law(name, system, values, unseen=unseen, parameters=count, begun=begun, ahead=ahead)
+        return replace(law, found=found)
 
     def _found(self, name: str) -> Hypothesis:
         """The best of searches from different seeds, where they are cheap until two of them agree."""
@@ -129,7 +138,8 @@ class Laws:
             for records in (self.dataset.fitted, self.dataset.held_out)
         )
         away = outside(simulated(system, self.dataset.held_out, values), self.dataset)
-        return Law(name, "", fitted, held_out, unseen, parameters, time.process_time() - begun, ahead, away)
+        gap = gap_after(system, self.loops, values, repeats=self.passes) if self.passes else 0.0
+        return Law(name, "", fitted, held_out, unseen, parameters, time.process_time() - begun, ahead, away, gap)
 
     def _reasons(self, fitter: Fitter) -> list[str]:
         system = fitter.stack.system(())

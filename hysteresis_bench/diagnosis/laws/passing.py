@@ -1,0 +1,49 @@
+"""Laws of loops that had settled: each is passed as often as its law needs to close it, and scored then."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.laws.law import Law, Laws
+from hysteresis_bench.diagnosis.preparation import thinned, with_held_out
+from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, passed
+from hysteresis_bench.signals import Dataset
+
+MOST = 8
+"""Passes of a loop before it is scored; doubled up to there while a law does not close it."""
+
+
+@dataclass(frozen=True)
+class Passing:
+    """Fits laws, each by itself, so that they can be fitted side by side.
+
+    seen : as the models see it, before any loop is passed;  settles : loops are passed before they are scored
+    split : a part is held out where none is, after that: what is left of a lone loop is none
+    effects : known to act around every law
+    """
+
+    seen: Dataset
+    settles: bool
+    split: bool
+    effects: tuple[str, ...] = ()
+    seed: int = 0
+
+    @property
+    def begun(self) -> Laws:
+        """As every law begins."""
+        return self._after(FIRST_REPEATS if self.settles else 0)
+
+    def law(self, name: str) -> Law:
+        """Fitted, or with the reason why not."""
+        begun, passes, law = time.process_time(), FIRST_REPEATS, self.begun.law(name)
+        while law.gap >= CLOSED and passes < MOST:
+            passes *= 2
+            law = self._after(passes).law(name, law.found)
+        return replace(law, seconds=time.process_time() - begun) if law.seconds else law
+
+    def _after(self, passes: int) -> Laws:
+        ready = self.seen.map(lambda record: passed(record, passes))
+        dataset = with_held_out(ready)[0] if self.split else ready
+        return Laws(thinned(views_of(dataset.fitted)), dataset, self.effects, self.seed, ready.fitted, passes)
