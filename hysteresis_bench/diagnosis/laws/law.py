@@ -31,7 +31,7 @@ from hysteresis_bench.signals import Dataset, Record
 SEARCHES, ALIKE = 4, 1e-3
 """Searches from different seeds, and the share by which the errors of two that agree differ at most."""
 CHEAP = 20000
-"""Samples times parameters up to which a search is made again."""
+"""Simulated samples times parameters up to which a search is made again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,7 +116,7 @@ class Laws:
             fitter = self.fitter(name, self.records, run)
             found.append(fitter.bare(frozenset({registry.RECORD_OFFSET})))
             first, *others = sorted(one.rmse for one in found)
-            size = found[0].residuals.size * len(found[0].values)
+            size = sum(record.time.size for record in self.records) * len(found[0].values)
             if size > CHEAP or any(other <= (1.0 + ALIKE) * first for other in others):
                 break
         return min(found, key=lambda one: one.rmse)
