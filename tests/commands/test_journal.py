@@ -118,7 +118,8 @@ def test_stopped_by_ctrl_c_it_says_what_is_kept(here, monkeypatch):
 
 
 def test_answers_come_back_to_the_last_bit(tmp_path):
-    known, law = hypothesis(), Law("dahl", "", 0.1 + 0.2, np.nan, np.arange(3.0) / 7.0, 5, 1.5)
+    known = hypothesis()
+    law = Law("dahl", "", 0.1 + 0.2, np.nan, np.arange(3.0) / 7.0, 5, 1.5, found=known)
     kept = Journal(tmp_path / UNFINISHED, "of")
     kept["a", known], kept["b", 1.0] = known, law
     again = Journal(tmp_path / UNFINISHED, "of")
@@ -126,6 +127,7 @@ def test_answers_come_back_to_the_last_bit(tmp_path):
     assert (found.names, found.values, found.at_bound) == (known.names, known.values, known.at_bound)
     assert np.array_equal(found.residuals, known.residuals)
     assert np.array_equal(found_law.unseen, law.unseen)
+    assert found_law.found.values == known.values
     assert (found_law.fitted, found_law.parameters) == (law.fitted, law.parameters)
     assert np.isnan(found_law.held_out)
     assert again.get(("a", hypothesis(0.2))) is None

@@ -13,8 +13,10 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, OPEN
+from hysteresis_bench.diagnosis.laws.passing import Passing
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.settling import CLOSED, passed
 from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.signals import Dataset, Record
 
@@ -101,6 +103,40 @@ def test_a_diagnosis_without_a_model_finds_law_and_effect():
     assert found.unseen < 0.5 * found.laws.table["unseen"].min()
     assert found.unseen < 1.15 * found.floor
     assert found.laws.words in found.warnings[0]
+
+
+def lagged(u: np.ndarray, constant: float = 0.03) -> np.ndarray:
+    """A first-order lag behind the Bouc-Wen loop, exact for an output that is straight between samples."""
+    y = BOUC_WEN(u)
+    left, z = np.exp(-TIME[1] / constant), np.empty_like(y)
+    z[0] = y[0]
+    for i, slope in enumerate(np.diff(y) / TIME[1]):
+        # z - (y - constant slope) decays
+        z[i + 1] = y[i + 1] - constant * slope + left * (z[i] - y[i] + constant * slope)
+    return z
+
+
+def test_a_lag_makes_no_law_with_dynamics_of_its_own_the_right_one():
+    """`hammerstein`, a Bouc-Wen loop before an oscillator, holds a lag in itself, and Bouc-Wen alone does not."""
+    data, names = Dataset(records(lagged)), ("hammerstein", "bouc-wen", "dahl")
+    assert compare(data, names, options=ONE).chosen == "hammerstein"
+    found = diagnose(data, options=replace(ONE, laws=names))
+    assert (found.model_name, found.effects) == ("bouc-wen", ("output-lag",))
+    assert found.unseen < 1.1 * found.floor
+
+
+def test_a_law_is_passed_until_it_closes_the_loop():
+    """A creep that is slow beside the faster of two loops."""
+    model = registry.build("models", "bouc-wen")
+    system = System(model, tuple(registry.build_effects(model, ("creep",))))
+    p, turn = np.array([0.3, 0.6, 0.2, 1.0, 0.5, 0.8, 0.0]), np.arange(200) / 200.0
+    loops = [Record(turn * period, 4.0 * np.sin(2.0 * np.pi * turn), None, name=f"{period}") for period in (1.0, 0.2)]
+    settled = [replace(one, output=system.respond(passed(one, 64), p[:, None])[-200:, 0]) for one in loops]
+    passing = Passing(Dataset(tuple(settled)), True, False, ("creep",))
+    few, enough = passing.begun.law("bouc-wen"), passing.law("bouc-wen")
+    assert few.gap > CLOSED
+    assert enough.gap < CLOSED
+    assert enough.fitted < 1e-3
 
 
 def test_faults_are_told_together():

@@ -1,14 +1,13 @@
 """Of laws that were not given, one without a curve goes before one with it, where it predicts about as well."""
 
-from types import SimpleNamespace
-
 import pytest
 
+from hysteresis_bench.diagnosis.around import Standing
 from hysteresis_bench.diagnosis.diagnose import _preferred
 
 
-def found(unseen, *effects):
-    return SimpleNamespace(unseen=unseen, floor=1.0, effects=effects)
+def found(unseen, *effects, parameters=5):
+    return Standing("law", effects, parameters, unseen, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -20,7 +19,13 @@ def found(unseen, *effects):
         (found(1.15, "creep"), found(1.24), 0),  # has dynamics, which no law's shape makes
         (found(1.15, "output-curve"), found(1.24, "asymmetry"), 0),
         (found(1.24, "output-curve"), found(1.15), 1),
+        (found(0.99, "saturation"), found(1.01), 1),
     ],
 )
 def test_a_curve_makes_another_law(curved, plain, preferred):
     assert _preferred([curved, plain]) is (curved, plain)[preferred]
+
+
+def test_of_those_that_predict_to_the_noise_the_simplest_is_taken():
+    dynamic, simple, simpler = found(0.99, parameters=7), found(1.01, "output-lag"), found(1.2, parameters=4)
+    assert _preferred([dynamic, simple, simpler]) is simple

@@ -26,6 +26,11 @@ def is_shape(name: str) -> bool:
     return family.startswith("curve") or (family == "law" and name not in registry.offered())
 
 
+def is_rate_independent(law: str) -> bool:
+    """Has a registered model, as it is by default, no dynamics of its own?"""
+    return "rate-independent" in registry.load("models", law).loaded.properties  # type: ignore[union-attr]
+
+
 @dataclass(frozen=True)
 class Agreement:
     """What is needed around every law that leaves no more than the one that was asked about.

@@ -6,8 +6,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_shape
+from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
@@ -87,9 +86,9 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         if not wrong or not witnesses or (cause and cause.unseen <= MISFIT * floor):
             return Doubt(cause, untested=untested)
         (own,) = workers.map([("needy", asked)])
-        good = [one.model for one in screened if one.rmse <= own.rmse and _is_rate_independent(one.model)]
+        good = [one.model for one in screened if one.rmse <= own.rmse and is_rate_independent(one.model)]
         needy = workers.map([("needy", name) for name in good])
-        shaped = _is_rate_independent(asked) and any(is_shape(name) for name in own.effects)
+        shaped = is_rate_independent(asked) and any(is_shape(name) for name in own.effects)
         return Doubt(cause, agreement(own, needy) if needy or shaped else None, untested)
 
 
@@ -122,7 +121,3 @@ def _in_question(found: Found) -> tuple[str, ...]:
     names |= {one.chosen for one in found.selection.rounds if one.chosen}
     names |= {rival for rivals in found.rivals.values() for rival in rivals}
     return tuple(sorted(names - {*forms_of(tuple(names))}))
-
-
-def _is_rate_independent(law: str) -> bool:
-    return "rate-independent" in registry.load("models", law).loaded.properties  # type: ignore[union-attr]

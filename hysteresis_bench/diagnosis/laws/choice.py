@@ -86,6 +86,15 @@ def _left_out(away: Sequence[Law]) -> str:
     )
 
 
+def ranking(laws: Sequence[Law], blocks: Blocks, *, like: bool = False) -> tuple[str, ...]:
+    """The names of those that were fitted, by the error that is expected of them, those that run away last; arguments
+    as of `choose`."""
+    count = int(blocks.block.max()) + 1
+    parts = _steady([law for law in laws if law.unseen.size])
+    ordered = (sorted(part, key=lambda law: law.rmse if like else expected(law, count)) for part in parts)
+    return tuple(law.model for part in ordered for law in part)
+
+
 def expected(law: Law, blocks: int) -> float:
     """RMSE to expect on other excitations, unit of the output; blocks : how many were left out."""
     return law.rmse * (1.0 + law.parameters / blocks)

@@ -13,17 +13,19 @@ import pandas as pd
 from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.data.units import rounded
+from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
 from hysteresis_bench.diagnosis.evidence.memory import memory
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.choice import choose
+from hysteresis_bench.diagnosis.laws.choice import choose, ranking
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
+from hysteresis_bench.diagnosis.search.selection import MATTERS
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
@@ -50,6 +52,8 @@ class Comparison:
     """table : a row a law, the best first: law, parameters, fitted, unseen, held_out (RMSE, unit of the output),
     seconds (CPU), reason (why there is no fit)
     chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
+    ranked : what was fitted, by the error that is expected on other excitations; where effects will be sought, of a
+    law without dynamics of its own with any linear ones, unless one alone comes down to the noise
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -61,6 +65,7 @@ class Comparison:
     units: dict[str, str]
     notes: tuple[str, ...] = ()
     structure: Structure | None = None
+    ranked: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """For a JSON file."""
@@ -95,6 +100,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](passing, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
+        moved = workers.map([("with_dynamics", law) for law in _wanting(fitted, floor)]) if effects_follow else []
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
@@ -115,7 +121,19 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
-    return Comparison(table, chosen, words, floor, dict(dataset.units), (*_notes(seen, options), *told), found)
+    notes = (*_notes(seen, options), *told)
+    better = {law.model: law for law in moved}
+    ranked = ranking([better.get(law.model, law) for law in laws], out.blocks, like=out.like)
+    if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
+        words += f" With linear dynamics before or after the law, {first.model} is expected to: {first.rmse:.3g}."
+    return Comparison(table, chosen, words, floor, dict(dataset.units), notes, found, ranked)
+
+
+def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
+    """Laws without dynamics of their own, where none comes down to the noise: those with them may owe their place to an
+    effect that the others lack."""
+    still = [law for law in fitted if law.found is not None and is_rate_independent(law.model)]
+    return still if min((law.rmse for law in still), default=0.0) > MATTERS * floor else []
 
 
 def _prepared(dataset: Dataset, question: Question) -> Dataset:

@@ -30,6 +30,8 @@ from hysteresis_bench.signals import Dataset, Record
 
 SEARCHES, ALIKE = 4, 1e-3
 """Searches from different seeds, and the share by which the errors of two that agree differ at most."""
+DYNAMICS = (("lags-before", "input-lag"), ("lags-after", "output-lag"))
+"""Linear dynamics on either side of a law: of each pair the first one that the records can tell."""
 CHEAP = 20000
 """Simulated samples times parameters up to which a search is made again."""
 
@@ -101,13 +103,32 @@ class Laws:
         count = problem.space.dimension
         if found.rmse >= 0.999 * _spread(self.records):
             return Law(name, "it follows these records no better than a constant.", parameters=count)
-        point, last = point_of(problem, found.values), last_part(self.records)
-        unseen = left_out_errors(problem, point, left_out(self.records).blocks, FURTHER)
-        ahead = errors_without(problem, point, Blocks(~last, ~last, 1))[last, 0] if last.any() else unseen[last]
+        unseen, ahead = self._left_out(problem, found)
         full = self.fitter(name, self.dataset.fitted)
         system, values = full.stack.problem(found.names).system, full.polished(found)
         law = self._law(name, system, values, unseen=unseen, parameters=count, begun=begun, ahead=ahead)
         return replace(law, found=found)
+
+    def with_dynamics(self, law: Law) -> Law:
+        """Behind or before free linear dynamics, whichever predicts better what is left out, or as it is where neither
+        does. What it predicts, its parameters and what was found are then those with them; all else is the law's."""
+        best, fitter = law, self.fitter(law.model, self.records)
+        for names in DYNAMICS:
+            told = [name for name in names if not fitter.stack.effect(name).inapplicable(self.records)]
+            if law.found is None or not told:
+                continue
+            found = fitter.extended(law.found, told[0])
+            problem = fitter.stack.problem(found.names)
+            unseen, ahead = self._left_out(problem, found)
+            moved = replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)
+            best = min(best, moved, key=lambda one: one.rmse)
+        return best
+
+    def _left_out(self, problem: Problem, found: Hypothesis) -> tuple[Array, Array]:
+        """Errors of what is left out, and of a lone record's last part, as of `Law`."""
+        point, last = point_of(problem, found.values), last_part(self.records)
+        unseen = left_out_errors(problem, point, left_out(self.records).blocks, FURTHER)
+        return unseen, errors_without(problem, point, Blocks(~last, ~last, 1))[last, 0] if last.any() else unseen[last]
 
     def _found(self, name: str) -> Hypothesis:
         """The best of searches from different seeds, where they are cheap until two of them agree."""

@@ -43,6 +43,10 @@ class Passing:
             law = self._after(passes).law(name, law.found)
         return replace(law, seconds=time.process_time() - begun) if law.seconds else law
 
+    def with_dynamics(self, law: Law) -> Law:
+        """As of `Laws.with_dynamics`, after as few passes as every law begins with."""
+        return self.begun.with_dynamics(law)
+
     def _after(self, passes: int) -> Laws:
         ready = self.seen.map(lambda record: passed(record, passes))
         dataset = with_held_out(ready)[0] if self.split else ready

@@ -46,7 +46,7 @@ class Stop(Exception):
 
 @pytest.mark.parametrize(("left", "again"), [(1.05, True), (1.9, True), (2.1, False), (8.4, False)])
 def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(monkeypatch, left, again):
-    module = import_module("hysteresis_bench.diagnosis.diagnose")
+    module = import_module("hysteresis_bench.diagnosis.around")
     told, found = [], SimpleNamespace(best=SimpleNamespace(rmse=left), selection=SimpleNamespace(floor=1.0))
     prepared = SimpleNamespace(views=(), dataset=Dataset(()))
     prepared.read_as = lambda records, why: told.append(why) or prepared
@@ -59,5 +59,5 @@ def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(mon
         monkeypatch.setattr(module, name, lambda *rest, answer=answer: answer)
     monkeypatch.setattr(module, "few_samples", enough)
     with pytest.raises(Stop):
-        module._diagnosed(Dataset(()), Question("bouc-wen"), ())
+        module.searched(Dataset(()), Question("bouc-wen"))
     assert told == ([module.SMOOTHED] if again else [])

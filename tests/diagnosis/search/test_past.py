@@ -11,7 +11,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.search.past import begun, pasts, with_past, with_pasts
 from hysteresis_bench.signals import Dataset, Record
 
-diagnosing = importlib.import_module("hysteresis_bench.diagnosis.diagnose")
+diagnosing = importlib.import_module("hysteresis_bench.diagnosis.around")
 
 PLAYS = np.array([0.3, 0.8, 1.5, 2.5])
 """Half-widths; the device is the sum of its input and of these plays, by their definition."""

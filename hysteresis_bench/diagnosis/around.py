@@ -1,0 +1,186 @@
+"""Diagnosis around one law: the search in the records as they are read best, and what is told of what it found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.doubt.agreement import is_shape
+from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
+from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
+from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.findings.conclude import conclude
+from hysteresis_bench.diagnosis.findings.remainder import remainder
+from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.findings.stages import settle_offset
+from hysteresis_bench.diagnosis.preparation import Prepared, prepare
+from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
+from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
+from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
+from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
+from hysteresis_bench.diagnosis.search.past import begun, pasts, with_pasts
+from hysteresis_bench.diagnosis.search.search import Found, search
+from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MATTERS, MISFIT
+from hysteresis_bench.fit.identifiability.combinations import listed
+from hysteresis_bench.fit.smooth.smoothing import Rough
+from hysteresis_bench.progress import Step
+from hysteresis_bench.signals import Dataset
+
+SMOOTHED = (
+    "The input is measured with noise. It was smoothed by as much as its noise is (a smoothing spline), which leaves "
+    "less, so that no effect makes up for the noise; `predict` will leave more with inputs as measured."
+)
+
+BETWEEN = (
+    f"The samples are few for this law: it was simulated with {FINER} steps from one to the next, along a smooth curve "
+    "through the input where it has no corners, so that no effect makes up for what lies between. `predict` does the "
+    "same; what `control` and `export` simulate has the steps of its own time."
+)
+
+MID_LOOP = (
+    "The records seem to begin in mid-loop, where a model begins at rest: until the input has passed both ends of its "
+    "range they are off, and not later{}. How far a change with the path, such as fatigue, had gone before is not "
+    "known."
+)
+CUT = "Up to there they are simulated and not scored; `predict` will be off there as well."
+PAST = (
+    "Two turning points of the input before each record were estimated, which explain what it remembers, and are "
+    "simulated before it (of one that is held out, by its beginning, which is not scored); `predict` begins at rest, "
+    "and will be off there."
+)
+
+ESTIMATED = 3
+"""Times that what came before the records is estimated at most, each by another system, that leaves less."""
+
+
+@dataclass(frozen=True)
+class Standing:
+    """What a law with its effects is preferred by.
+
+    effects : in the model;  parameters : how many, of the law and of the effects
+    unseen, floor : as of `Diagnosis`
+    """
+
+    law: str
+    effects: tuple[str, ...]
+    parameters: int
+    unseen: float
+    floor: float
+
+    @property
+    def reached(self) -> bool:
+        """Does it predict to the noise?"""
+        return self.unseen <= MATTERS * self.floor
+
+    @property
+    def shaped(self) -> bool:
+        """Does it need what has no dynamics, which may be another law's shape?"""
+        return any(map(is_shape, self.effects))
+
+
+@dataclass(frozen=True, eq=False)
+class Around:
+    """What was found around one law, before other laws are asked. question : with that law for its model"""
+
+    dataset: Dataset
+    question: Question
+    prepared: Prepared
+    found: Found
+
+    @cached_property
+    def standing(self) -> Standing:
+        """Beside other laws with their effects."""
+        found = self.found
+        adopted, unseen = found.selection.adopted(found.best), unseen_rmse(found.thin, found.final)
+        return Standing(self.question.model, adopted, len(found.final.values), unseen, found.evidence.floor)
+
+
+def searched(dataset: Dataset, question: Question) -> Around:
+    """Effects around the question's model, in the records as they leave least.
+
+    Raises UserError telling every fault of the question and of the records at once."""
+    on_step, law = question.options.on_step, question.model
+    on_step(Step(f"{law}: the records"))
+    prepared = prepare(dataset, question)
+    on_step(Step(f"{law}: noise and memory"))
+    evidence = gather(prepared.views)
+    found = search(prepared, evidence, question)
+    on_step(Step(f"{law}: the noise of the input"))
+    # the floor knows of the input's noise: what is left far above it, no smoother input explains
+    if evidence.noise.input_heard and found.best.rmse <= WRONG * found.selection.floor:
+        smooth = prepared.read_as(with_smooth_inputs(prepared.dataset.records), SMOOTHED)
+        quiet = gather(smooth.views)
+        # what is left of an input that is rough by itself passes for noise again
+        again = found if quiet.noise.input_heard else search(smooth, quiet, question)
+        if again.best.rmse < found.best.rmse:
+            prepared, found = smooth, again
+    on_step(Step(f"{law}: what lies between the samples"))
+    if few_samples(found):
+        finer, again = _anew(prepared.read_as(with_finer_steps(prepared.dataset.records), BETWEEN), question)
+        if again.best.rmse < ALIKE * found.best.rmse:
+            prepared, found = finer, again
+    on_step(Step(f"{law}: the records' beginnings"))
+    # what needs no hysteresis remembers nothing of what came before
+    if evidence.memory.needed and (spare := only_in_beginnings(found)) is not None:
+        prepared, found = _in_mid_loop(prepared, found, spare, question)
+    return Around(dataset, question, prepared, found)
+
+
+def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
+    """The diagnosis, after other laws were asked whether the records are theirs, and what they need.
+
+    laws : which may be the right one, the question's own among them or not"""
+    question, prepared, found = around.question, around.prepared, around.found
+    question.options.on_step(Step(f"{question.model}: before and after"))
+    stages = settle_offset(prepared, found, question)
+    left = remainder(stages.after, found.evidence)
+    # slow noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
+    # clearly better shows that it is none, and what one excitation leaves may as well be the law's
+    blameless = left.slow and not forms_of(stages.adopted) and found.thin.excitations.varied
+    witnesses = [] if blameless else of_few_parameters(registry.names("models"))
+    doubted = doubt(found, question, laws, witnesses)
+    if doubted != Doubt():
+        known, found = found, answered(found, doubted, question.options)
+        if found.best is not known.best:
+            stages = settle_offset(prepared, found, question)
+            left = remainder(stages.after, found.evidence)
+    return conclude(around.dataset, question, prepared, found, stages, left, doubted)
+
+
+def _anew(ready: Prepared, question: Question) -> tuple[Prepared, Found]:
+    return ready, search(ready, gather(ready.views), question)
+
+
+def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], question: Question) -> tuple[Prepared, Found]:
+    """Without the records' beginnings, or with what came before them where that leaves as little of all samples.
+
+    What came before is estimated by what was found without the beginnings, and again by what is found then."""
+    needed = f"{listed(spare)} had been selected and is needed there only, to make up for that" if spare else ""
+    told = MID_LOOP.format(f"; {needed}" if needed else "")
+    measured = prepared.dataset
+    cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
+    best, known = cut, {}
+    for _ in range(ESTIMATED):
+        estimated = pasts(*best[1].thin.fitted(best[1].best), measured.fitted)
+        again = _anew(prepared.read_as(with_pasts(measured, estimated), f"{told} {PAST}"), question)
+        if best is not cut and again[1].best.rmse >= BETTER * best[1].best.rmse:
+            break
+        same = again[1].best.names == best[1].best.names
+        best, known = again, estimated
+        if same:
+            break
+    if best[1].best.rmse > ALIKE * cut[1].best.rmse:
+        best = cut
+    else:  # where a held-out record stands tells its past as well
+        everywhere = known | pasts(*best[1].thin.fitted(best[1].final), begun(measured.held_out))
+        best = (prepared.read_as(with_pasts(measured, everywhere), f"{told} {PAST}"), best[1])
+    return best if best[1].best.rmse <= MISFIT * best[1].selection.floor else (prepared, found)
+
+
+def of_few_parameters(laws: Sequence[str]) -> list[str]:
+    """Without densities of many parameters, among which effects would be lost."""
+    return [law for law in laws if not isinstance(registry.build("models", law, {}), Rough)]
