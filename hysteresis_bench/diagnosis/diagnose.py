@@ -10,6 +10,7 @@ from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.around import Around, Standing, concluded, of_few_parameters, searched
 from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
+from hysteresis_bench.diagnosis.laws.choice import TIED
 from hysteresis_bench.diagnosis.laws.comparison import Comparison, compare
 from hysteresis_bench.diagnosis.preparation import with_held_out
 from hysteresis_bench.diagnosis.question import Question
@@ -74,12 +75,13 @@ def _promising(laws: Comparison, several: bool) -> list[str]:
 
 
 def _preferred(found: Sequence[Standing]) -> Standing:
-    """The one that predicts best; of those that predict to the noise, that of fewest parameters. What has no dynamics
-    makes with a law that was not given just another law: one that needs nothing of that kind is preferred, unless it
-    leaves more than twice the excess over the noise (`NAMED`)."""
-    if reached := [one for one in found if one.reached]:
-        return min(reached, key=lambda one: (one.parameters, one.shaped))
+    """The one that predicts best; of those that predict to the noise, equally well (`TIED`), that of fewest parameters.
+    What has no dynamics makes with a law that was not given just another law: one that needs nothing of that kind is
+    preferred, unless it leaves more than twice the excess over the noise (`NAMED`)."""
     best, *others = sorted(found, key=lambda one: one.unseen)
+    if best.reached:
+        tied = [best, *(one for one in others if one.unseen <= TIED * best.unseen)]
+        return min(tied, key=lambda one: (one.parameters, one.shaped))
     plain = (one for one in others if not one.shaped and _excess(best) > (1.0 - NAMED) * _excess(one))
     return next(plain, best) if best.shaped else best
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.laws.choice import choose
+from hysteresis_bench.diagnosis.laws.choice import choose, ranking
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.smooth.smoothing import _unchosen
 from hysteresis_bench.fit.unseen.blocks import blocked
@@ -30,6 +30,14 @@ def test_parameters_do_not_weigh_where_what_is_asked_is_like_what_was_left_out()
     name, words = choose(laws, PLAIN, blocked([400], [20], 4), like=True)
     assert name == "preisach"
     assert "its 19 parameters, in place of the 5 of dahl, do not weigh" in words
+
+
+@pytest.mark.parametrize(("noise", "first"), [(1.0, "dahl"), (0.9, "preisach")])
+def test_at_the_noise_equal_laws_are_ranked_by_their_parameters(noise, first):
+    laws = [law("preisach", 1.0, 6), law("dahl", 1.015, 5), law("bouc-wen", 1.05, 4), Law("lugre", "why not")]
+    away = replace(law("polynomial", 0.5, 3), outside=0.9)
+    assert ranking([*laws, away], noise, blocked([400], [100], 4))[0] == first
+    assert ranking([*laws, away], noise, blocked([400], [100], 4))[-1] == "polynomial"
 
 
 def test_no_law_is_taken_where_the_polynomial_does_better():

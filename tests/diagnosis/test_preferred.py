@@ -19,7 +19,7 @@ def found(unseen, *effects, parameters=5):
         (found(1.15, "creep"), found(1.24), 0),  # has dynamics, which no law's shape makes
         (found(1.15, "output-curve"), found(1.24, "asymmetry"), 0),
         (found(1.24, "output-curve"), found(1.15), 1),
-        (found(0.99, "saturation"), found(1.01), 1),
+        (found(0.99, "saturation"), found(1.0), 1),
     ],
 )
 def test_a_curve_makes_another_law(curved, plain, preferred):
@@ -27,5 +27,5 @@ def test_a_curve_makes_another_law(curved, plain, preferred):
 
 
 def test_of_those_that_predict_to_the_noise_the_simplest_is_taken():
-    dynamic, simple, simpler = found(0.99, parameters=7), found(1.01, "output-lag"), found(1.2, parameters=4)
+    dynamic, simple, simpler = found(1.0, parameters=7), found(1.01, "output-lag"), found(1.05, parameters=4)
     assert _preferred([dynamic, simple, simpler]) is simple

@@ -42,6 +42,8 @@ from hysteresis_bench.fit.unseen.blocks import Blocks
 
 SLACK = 0.1
 """Share of the range of the fitted outputs."""
+TIED = 1.02
+"""Ratio of two errors at the noise up to which they are equal."""
 
 
 def choose(laws: Sequence[Law], plain: float, blocks: Blocks, *, like: bool = False) -> tuple[str, str]:
@@ -86,13 +88,21 @@ def _left_out(away: Sequence[Law]) -> str:
     )
 
 
-def ranking(laws: Sequence[Law], blocks: Blocks, *, like: bool = False) -> tuple[str, ...]:
-    """The names of those that were fitted, by the error that is expected of them, those that run away last; arguments
-    as of `choose`."""
-    count = int(blocks.block.max()) + 1
-    parts = _steady([law for law in laws if law.unseen.size])
-    ordered = (sorted(part, key=lambda law: law.rmse if like else expected(law, count)) for part in parts)
-    return tuple(law.model for part in ordered for law in part)
+def ranking(laws: Sequence[Law], noise: float, blocks: Blocks, *, like: bool = False) -> tuple[str, ...]:
+    """The names of those that were fitted, by the error that is expected of them; those that run away last. Where the
+    least error is the noise, those that are within `TIED` of it first, by their parameters.
+
+    noise : RMSE up to which it is reached;  others as of `choose`
+    """
+    count, steady = int(blocks.block.max()) + 1, _steady([law for law in laws if law.unseen.size])
+    least = min((law.rmse for law in steady[0]), default=np.inf)
+    tied = TIED * least if least <= noise else 0.0
+
+    def place(law: Law) -> tuple[bool, float]:
+        equal = law.rmse <= tied
+        return not equal, law.parameters if equal else law.rmse if like else expected(law, count)
+
+    return tuple(law.model for part in steady for law in sorted(part, key=place))
 
 
 def expected(law: Law, blocks: int) -> float:

@@ -52,8 +52,8 @@ class Comparison:
     """table : a row a law, the best first: law, parameters, fitted, unseen, held_out (RMSE, unit of the output),
     seconds (CPU), reason (why there is no fit)
     chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
-    ranked : what was fitted, by the error that is expected on other excitations; where effects will be sought, of a
-    law without dynamics of its own with any linear ones, unless one alone comes down to the noise
+    ranked : what was fitted, as of `ranking`; where effects will be sought and no law without dynamics of its own comes
+    down to the noise alone, of such a one with a drift and any linear dynamics
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -123,15 +123,15 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         words += " On what was held out it does worse than the polynomial: do not believe it there."
     notes = (*_notes(seen, options), *told)
     better = {law.model: law for law in moved}
-    ranked = ranking([better.get(law.model, law) for law in laws], out.blocks, like=out.like)
+    ranked = ranking([better.get(law.model, law) for law in laws], MATTERS * floor, out.blocks, like=out.like)
     if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
-        words += f" With linear dynamics before or after the law, {first.model} is expected to: {first.rmse:.3g}."
+        words += f" With a drift and linear dynamics around the law, {first.model} is expected to: {first.rmse:.3g}."
     return Comparison(table, chosen, words, floor, dict(dataset.units), notes, found, ranked)
 
 
 def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
-    """Laws without dynamics of their own, where none comes down to the noise: those with them may owe their place to an
-    effect that the others lack."""
+    """Laws without dynamics of their own, where none comes down to the noise: those with them, or of many parameters,
+    may owe their place to an effect that the others lack."""
     still = [law for law in fitted if law.found is not None and is_rate_independent(law.model)]
     return still if min((law.rmse for law in still), default=0.0) > MATTERS * floor else []
 

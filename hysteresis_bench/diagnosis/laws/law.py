@@ -30,8 +30,9 @@ from hysteresis_bench.signals import Dataset, Record
 
 SEARCHES, ALIKE = 4, 1e-3
 """Searches from different seeds, and the share by which the errors of two that agree differ at most."""
-DYNAMICS = (("lags-before", "input-lag"), ("lags-after", "output-lag"))
-"""Linear dynamics on either side of a law: of each pair the first one that the records can tell."""
+DYNAMICS = (("record-drift",), ("lags-before", "input-lag"), ("lags-after", "output-lag"))
+"""A line in time for every record, and linear dynamics on either side of a law: of each the first one that the records
+can tell."""
 CHEAP = 20000
 """Simulated samples times parameters up to which a search is made again."""
 
@@ -110,19 +111,24 @@ class Laws:
         return replace(law, found=found)
 
     def with_dynamics(self, law: Law) -> Law:
-        """Behind or before free linear dynamics, whichever predicts better what is left out, or as it is where neither
-        does. What it predicts, its parameters and what was found are then those with them; all else is the law's."""
-        best, fitter = law, self.fitter(law.model, self.records)
-        for names in DYNAMICS:
-            told = [name for name in names if not fitter.stack.effect(name).inapplicable(self.records)]
-            if law.found is None or not told:
-                continue
-            found = fitter.extended(law.found, told[0])
-            problem = fitter.stack.problem(found.names)
-            unseen, ahead = self._left_out(problem, found)
-            moved = replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)
-            best = min(best, moved, key=lambda one: one.rmse)
-        return best
+        """Beside drifts, and behind or before free linear dynamics, as far as it predicts what is left out better so.
+        What it predicts, its parameters and what was found are then those with them; all else is the law's."""
+        fitter = self.fitter(law.model, self.records)
+        drifts, *sides = (
+            [name for name in names if not fitter.stack.effect(name).inapplicable(self.records)] for names in DYNAMICS
+        )
+        drifting = min([law, *self._moved(fitter, law, drifts)], key=lambda one: one.rmse)
+        around = [one for names in sides for one in self._moved(fitter, drifting, names)]
+        return min([drifting, *around], key=lambda one: one.rmse)
+
+    def _moved(self, fitter: Fitter, law: Law, names: Sequence[str]) -> list[Law]:
+        """With the first of these effects more, where there is one."""
+        if law.found is None or not names:
+            return []
+        found = fitter.extended(law.found, names[0])
+        problem = fitter.stack.problem(found.names)
+        unseen, ahead = self._left_out(problem, found)
+        return [replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)]
 
     def _left_out(self, problem: Problem, found: Hypothesis) -> tuple[Array, Array]:
         """Errors of what is left out, and of a lone record's last part, as of `Law`."""
