@@ -52,8 +52,8 @@ class Comparison:
     """table : a row a law, the best first: law, parameters, fitted, unseen, held_out (RMSE, unit of the output),
     seconds (CPU), reason (why there is no fit)
     chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
-    ranked : what was fitted, as of `ranking`; where effects will be sought and no law without dynamics of its own comes
-    down to the noise alone, of such a one with a drift and any linear dynamics
+    ranked : what was fitted, as of `ranking`; where effects will be sought around several records and no law without
+    dynamics of its own comes down to the noise alone, of such a one with a drift and any linear dynamics
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -100,7 +100,9 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](passing, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
-        moved = workers.map([("with_dynamics", law) for law in _wanting(fitted, floor)]) if effects_follow else []
+        # blocks of a lone record cannot judge between laws with dynamics around them
+        several = effects_follow and len(thin.records) > 1
+        moved = workers.map([("with_dynamics", law) for law in _wanting(fitted, floor)]) if several else []
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
