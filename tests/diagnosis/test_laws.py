@@ -11,8 +11,10 @@ from hysteresis_bench import compare, diagnose, fit, registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.compose import System
 from hysteresis_bench.data.data_files import write_csv
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, OPEN
+from hysteresis_bench.diagnosis.laws.dynamics import drifts, linear_dynamics
 from hysteresis_bench.diagnosis.laws.passing import Passing
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.errors import UserError
@@ -123,6 +125,15 @@ def test_a_lag_makes_no_law_with_dynamics_of_its_own_the_right_one():
     found = diagnose(data, options=replace(ONE, laws=names))
     assert (found.model_name, found.effects) == ("bouc-wen", ("output-lag",))
     assert found.unseen < 1.1 * found.floor
+
+
+def test_laws_are_ranked_with_a_drift_and_linear_dynamics_on_either_side():
+    dahl = registry.build("models", "dahl")
+    several, one = Stack(dahl, records(BOUC_WEN)), Stack(dahl, (Record(TIME, np.sin(6.0 * TIME), np.sin(6.0 * TIME)),))
+    assert (drifts(several), linear_dynamics(several)) == (["record-drift"], ["lags-before", "lags-after"])
+    assert linear_dynamics(one) == ["input-lag", "output-lag"]  # at one frequency no curve can be told
+    untimed = replace(one.records[0], units={"time": "sample"})
+    assert linear_dynamics(Stack(dahl, (untimed,))) == []
 
 
 def test_a_law_is_passed_until_it_closes_the_loop():

@@ -117,17 +117,17 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         words += f" {OPEN}"
     if not chosen and found.of("sense").mixed:
         words += f" Of these records {found.of('sense').words}"
-    rows = [*(_row(law) for law in laws), _baseline_row(plain, seen)]
+    better = {law.model: law for law in moved}
+    rows = [*(_row(law, better.get(law.model)) for law in laws), _baseline_row(plain, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
     told = ((SAID,) if options.settle is None else ()) + (PASSED,) if settles else ()
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
     notes = (*_notes(seen, options), *told)
-    better = {law.model: law for law in moved}
     ranked = ranking([better.get(law.model, law) for law in laws], MATTERS * floor, out.blocks, like=out.like)
     if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
-        words += f" With a drift and linear dynamics around the law, {first.model} is expected to: {first.rmse:.3g}."
+        words += f" With a drift and linear dynamics around it, {first.model} predicts that to {first.rmse:.3g}."
     return Comparison(table, chosen, words, floor, dict(dataset.units), notes, found, ranked)
 
 
@@ -160,13 +160,14 @@ def _notes(seen: Dataset, options: DiagnosisOptions) -> tuple[str, ...]:
     )
 
 
-def _row(law: Law) -> dict[str, object]:
+def _row(law: Law, around: Law | None) -> dict[str, object]:
     return {
         "law": law.model,
         "parameters": law.parameters,
         "fitted": law.fitted,
         "unseen": law.rmse if law.unseen.size else np.nan,
         "held_out": law.held_out,
+        "around": around.rmse if around else np.nan,
         "seconds": law.seconds,
         "reason": law.reason,
     }
@@ -181,6 +182,7 @@ def _baseline_row(unseen: float, seen: Dataset) -> dict[str, object]:
         "fitted": _rms(fitted),
         "unseen": unseen,
         "held_out": _rms(held) if held else np.nan,
+        "around": np.nan,
         "seconds": 0.0,
         "reason": "",
     }

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,6 +14,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.laws.dynamics import drifts, linear_dynamics
 from hysteresis_bench.fit.accuracy import accuracy, simulated
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
@@ -30,9 +31,6 @@ from hysteresis_bench.signals import Dataset, Record
 
 SEARCHES, ALIKE = 4, 1e-3
 """Searches from different seeds, and the share by which the errors of two that agree differ at most."""
-DYNAMICS = (("record-drift",), ("lags-before", "input-lag"), ("lags-after", "output-lag"))
-"""A line in time for every record, and linear dynamics on either side of a law: of each the first one that the records
-can tell."""
 CHEAP = 20000
 """Simulated samples times parameters up to which a search is made again."""
 
@@ -114,21 +112,20 @@ class Laws:
         """Beside drifts, and behind or before free linear dynamics, as far as it predicts what is left out better so.
         What it predicts, its parameters and what was found are then those with them; all else is the law's."""
         fitter = self.fitter(law.model, self.records)
-        drifts, *sides = (
-            [name for name in names if not fitter.stack.effect(name).inapplicable(self.records)] for names in DYNAMICS
-        )
-        drifting = min([law, *self._moved(fitter, law, drifts)], key=lambda one: one.rmse)
-        around = [one for names in sides for one in self._moved(fitter, drifting, names)]
-        return min([drifting, *around], key=lambda one: one.rmse)
+        best = law
+        for names in (drifts(fitter.stack), linear_dynamics(fitter.stack)):
+            best = min([best, *self._moved(fitter, best, names)], key=lambda one: one.rmse)
+        return best
 
-    def _moved(self, fitter: Fitter, law: Law, names: Sequence[str]) -> list[Law]:
-        """With the first of these effects more, where there is one."""
-        if law.found is None or not names:
-            return []
-        found = fitter.extended(law.found, names[0])
-        problem = fitter.stack.problem(found.names)
-        unseen, ahead = self._left_out(problem, found)
-        return [replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)]
+    def _moved(self, fitter: Fitter, law: Law, names: Sequence[str]) -> Iterator[Law]:
+        """With each of these effects more."""
+        if law.found is None:
+            return
+        for name in names:
+            found = fitter.extended(law.found, name)
+            problem = fitter.stack.problem(found.names)
+            unseen, ahead = self._left_out(problem, found)
+            yield replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)
 
     def _left_out(self, problem: Problem, found: Hypothesis) -> tuple[Array, Array]:
         """Errors of what is left out, and of a lone record's last part, as of `Law`."""

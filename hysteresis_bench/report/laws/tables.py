@@ -13,6 +13,11 @@ from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, numbers
 
 UNSEEN, HELD_OUT, WITHOUT, FLOOR = SERIES[0], SERIES[3], MUTED, SERIES[2]
 
+AROUND = (
+    " With dynamics: what is left out, by the law with a drift of every record and with lags of any weights before or "
+    "after it, as far as they help; a law with dynamics of its own has them in itself. By these the laws were ranked."
+)
+
 Laws = Sequence[Mapping[str, Any]]
 """Rows as `Comparison.as_dict` has them: the best first, absent numbers None."""
 
@@ -66,7 +71,8 @@ def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Ta
     held_out = any(law["held_out"] is not None for law in laws)
     rmse = named("RMSE", units, "output")
     header = ["Law", "Parameters", f"{rmse}, left out", "times the noise", "fitted"]
-    header += ["held out", "CPU seconds"] if held_out else ["CPU seconds"]
+    around = any(law.get("around") is not None for law in laws)
+    header += [*(["held out"] if held_out else []), *(["left out, with dynamics"] if around else []), "CPU seconds"]
     rows = []
     for law in fitted_ones(laws):
         mine = law["law"] == chosen
@@ -78,6 +84,7 @@ def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Ta
             number(law["fitted"], 3),
         ]
         cells += [number(law["held_out"], 3)] if held_out else []
+        cells += [NONE if law["around"] is None else number(law["around"], 3)] if around else []
         rows.append([*cells, number(law["seconds"], 2)])
     return Table(
         "Laws",
@@ -85,7 +92,8 @@ def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Ta
         rows,
         note="Left out: what stays in the range of the rest is predicted by a fit to that, whole records or parts of a "
         "lone one; of what goes further, blocks are left out. Parameters of a smooth density are counted as effective "
-        "ones. Each record has an offset of its own. What is held out is predicted and chooses nothing.",
+        "ones. Each record has an offset of its own. What is held out is predicted and chooses nothing."
+        + (AROUND if around else ""),
     )
 
 
