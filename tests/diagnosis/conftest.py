@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 import pytest
 
-from hysteresis_bench.diagnosis import diagnose
+from hysteresis_bench.diagnosis import around, diagnose
 from hysteresis_bench.diagnosis.search import search
 
 FEW = ("bouc-wen", "dahl", "energy-based", "ferroelectric", "prandtl-ishlinskii-modified")
@@ -16,7 +16,8 @@ def few_laws():
     """Where the asked law does not follow, all others are asked what they need, which takes half a minute. These will
     do where a test is not about them."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(diagnose, "_of_few_parameters", lambda laws: [law for law in laws if law in FEW])
+        for module in (around, diagnose):
+            patch.setattr(module, "of_few_parameters", lambda laws: [law for law in laws if law in FEW])
         yield
 
 
