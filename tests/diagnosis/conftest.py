@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import partial
 
 import pytest
 
@@ -16,9 +17,19 @@ def few_laws():
     """Where the asked law does not follow, all others are asked what they need, which takes half a minute. These will
     do where a test is not about them."""
     with pytest.MonkeyPatch.context() as patch:
-        for module in (around, diagnose):
-            patch.setattr(module, "of_few_parameters", lambda laws: [law for law in laws if law in FEW])
+        _ask_only(patch, FEW)
         yield
+
+
+@pytest.fixture
+def ask_only(monkeypatch):
+    """Of all laws only these are asked about records that another one does not follow."""
+    return partial(_ask_only, monkeypatch)
+
+
+def _ask_only(patch, names):
+    for module in (around, diagnose):
+        patch.setattr(module, "of_few_parameters", lambda laws: [law for law in laws if law in names])
 
 
 @contextmanager
