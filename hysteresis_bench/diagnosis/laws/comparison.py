@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.choice import choose, ranking
+from hysteresis_bench.diagnosis.laws.choice import TIED, choose, ranking
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
@@ -30,6 +30,7 @@ from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.settling import FIRST_REPEATS, open_loops
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, open_way
@@ -127,7 +128,9 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     notes = (*_notes(seen, options), *told)
     ranked = ranking([better.get(law.model, law) for law in laws], MATTERS * floor, out.blocks, like=out.like)
     if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
-        words += f" With a drift and linear dynamics around it, {first.model} predicts that to {first.rmse:.3g}."
+        equal = [law.model for law in moved if law is not first and law.rmse <= TIED * first.rmse]
+        words += f" With a drift and linear dynamics around it, {first.model} predicts that to {first.rmse:.3g}"
+        words += f", and {listed(sorted(equal))} as well." if equal else "."
     return Comparison(table, chosen, words, floor, dict(dataset.units), notes, found, ranked)
 
 
