@@ -4,7 +4,7 @@
 
 Every law makes five records at different rates and amplitudes, one of them held out, alone and with one effect of a
 random size; the noise is 0.3 % of the range. Told are the law that is found, what is named, what is left of the record
-that was held out over its noise, and the CPU time.
+that was held out over its noise, and the time that it took.
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
@@ -30,7 +31,7 @@ class Passing:
     effects: tuple[str, ...] = ()
     seed: int = 0
 
-    @property
+    @cached_property
     def begun(self) -> Laws:
         """As every law begins."""
         return self._after(FIRST_REPEATS if self.settles else 0)
