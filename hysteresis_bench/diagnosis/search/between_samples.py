@@ -15,13 +15,15 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.preparation import SEARCHED
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import simulated
 from hysteresis_bench.signals import Record
 
 TELLING = 0.3
-"""Of the floor, from where it matters: it adds 4 % to what a perfect model leaves."""
+"""Of the floor, from where it matters: it adds 4 % to what a perfect model leaves. Where the law is wrong, of what the
+selected system leaves."""
 
 DECIDING = 5.0
 """Of the floor's standard error, the floor over the root of the number of samples, from where it may decide between
@@ -55,6 +57,7 @@ def few_samples(found: Found) -> bool:
     samples = sum(record.measured.size for record in records)
     if samples > SEARCHED:
         return False
-    limit = floor * min(TELLING, DECIDING / np.sqrt(samples))
+    left = found.best.rmse
+    limit = TELLING * left if left > WRONG * floor else floor * min(TELLING, DECIDING / np.sqrt(samples))
     systems = (fitter.fitted(hypothesis) for hypothesis in (found.base, found.best))
     return any(between_samples(system, records, values) > limit for system, values in systems)

@@ -87,17 +87,17 @@ class Selection:
     sought: set[frozenset[str]] = field(default_factory=set)
     weighed: set[tuple[frozenset[str], str]] = field(default_factory=set)
 
-    def run(self, base: Hypothesis) -> Hypothesis:
-        """From the bare model to the last effect that passes, `named` or not."""
+    def run(self, base: Hypothesis, most: int = MOST) -> Hypothesis:
+        """From the bare model to the last effect that passes, `named` or not; `most` at the most."""
         current = base
         visited = {current.names: current.rmse}
         while True:
             found = self._round(current)
             self.rounds.append(found)
-            if found.chosen and len(self.adopted(current)) < MOST:
+            if found.chosen and len(self.adopted(current)) < most:
                 better = self.settled(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
             else:
-                better = self.exchanged(current) or self._paired(found) or current
+                better = self.exchanged(current) or self._paired(found, most) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
                 return current
             current = better
@@ -194,11 +194,11 @@ class Selection:
         chosen = next((name for name, hypothesis in passed.items() if hypothesis is winner), "")
         return Round(current, hypotheses, tests, gains, chosen)
 
-    def _paired(self, found: Round) -> Hypothesis | None:
+    def _paired(self, found: Round, most: int) -> Hypothesis | None:
         """Two effects at once, where the model is wrong and no single one passes: what one of them leaves may hide
         the other."""
         current, count = found.current, len(self.candidates)
-        if current.rmse < MISFIT * self.floor or len(self.adopted(current)) + 2 > MOST:
+        if current.rmse < MISFIT * self.floor or len(self.adopted(current)) + 2 > most:
             return None
         leaders = sorted(found.hypotheses.values(), key=lambda hypothesis: hypothesis.cv_rmse)[:LEADERS]
         pairs = [pair for leader in leaders for pair in self._extensions(leader).values()]
