@@ -163,6 +163,8 @@ def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], questio
     told = MID_LOOP.format(f"; {needed}" if needed else "")
     measured = prepared.dataset
     cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
+    if cut[1].best.rmse > WRONG * cut[1].selection.floor:
+        return prepared, found  # the law is wrong, whatever came before
     best, known = cut, {}
     for _ in range(ESTIMATED):
         estimated = pasts(*best[1].thin.fitted(best[1].best), measured.fitted)

@@ -107,3 +107,13 @@ def test_the_pasts_that_are_kept_are_those_the_system_was_found_with(monkeypatch
     kept, found = diagnosing._in_mid_loop(prepared, None, (), None)
     assert kept == {"a": 1.0, "h": 9.0}
     assert found.best.rmse == 1.0
+
+
+def test_no_past_is_estimated_where_the_law_is_wrong_without_the_beginnings_too(monkeypatch):
+    def anew(ready, question):
+        return ready, Of(best=Of(rmse=2.1), selection=Of(floor=1.0))
+
+    monkeypatch.setattr(diagnosing, "_anew", anew)
+    monkeypatch.setattr(diagnosing, "without_beginnings", lambda _: "cut")
+    prepared = Of(dataset=Dataset((measured("a", (1.0,), (0.5, -0.5, 1.0)),), ()), read_as=lambda records, _: records)
+    assert diagnosing._in_mid_loop(prepared, None, (), None) == (prepared, None)
