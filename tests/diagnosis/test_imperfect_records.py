@@ -52,12 +52,13 @@ def test_noise_on_the_measured_input_is_no_dead_band_and_a_wider_one_is():
     ("law", "effects", "seed"),
     [("jiles-atherton", ("creep",), 3), ("bouc-wen", (), 4)],
 )
-def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(law, effects, seed):
+def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(law, effects, seed, names_only):
     """Of the last one, what the beginnings leave raises the fitted error by 16 %, and that of what is held out
     threefold."""
     settings = {"model": law, "imperfect": "in-mid-loop", "effects": effects, "noise": 0.004}
     data = measure("hidden-effects", *RECORDS, settings=settings, seed=seed).split(RECORDS[-1:])
-    found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
+    with names_only():
+        found = diagnose(data, Question(law, options=DiagnosisOptions(jobs=1)))
     assert found.effects == effects
     assert found.verdict == ("effect-found" if effects else "no-effect-needed")
     assert any("begin in mid-loop" in one for one in found.warnings)
@@ -82,12 +83,13 @@ def test_nor_is_one_that_little_is_left_of_beyond_them(names_only):
 
 
 @pytest.mark.parametrize("names", [(), ("transport-delay",)])
-def test_a_lag_that_only_smooths_a_noisy_input_is_not_named(names):
+def test_a_lag_that_only_smooths_a_noisy_input_is_not_named(names, names_only):
     """It took the noise off in the first, and the place of the delay in the second."""
     settings = {"model": "jiles-atherton", "effects": names, "draw": 3563, "imperfect": "noisy-input"}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=3).split(records[-1:])
-    found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
+    with names_only():
+        found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
     assert found.effects == names
     assert any("The input is measured with noise" in one for one in found.warnings)
     assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
