@@ -9,6 +9,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.around import Around, Standing, concluded, of_few_parameters, searched
 from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
+from hysteresis_bench.diagnosis.doubt.simpler_law import simpler_law
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.laws.choice import TIED
 from hysteresis_bench.diagnosis.laws.comparison import Comparison, compare
@@ -39,6 +40,9 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     laws = compare(dataset, question, effects_follow=True)
     promising = _promising(laws, len(with_held_out(dataset)[0].fitted) > 1)
     found = list(_pursued(dataset, question, promising))
+    if simpler := _simpler(found, laws, question.options.seed):
+        promising.append(simpler)
+        found.append(searched(dataset, replace(question, model=simpler)))
     best = _judged(found, promising)
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))
 
@@ -50,6 +54,19 @@ def _pursued(dataset: Dataset, question: Question, laws: Sequence[str]) -> Itera
         yield (one := searched(dataset, replace(question, model=law)))
         if is_rate_independent(law) and one.standing.reached and not one.standing.shaped:
             return
+
+
+def _simpler(found: Sequence[Around], laws: Comparison, seed: int) -> str:
+    """A law of fewer parameters than the preferred one has, which may predict to the noise as well; "" if none does.
+    One with dynamics of its own may hold the effect in itself."""
+    preferred = _preferred([one.standing for one in found])
+    if not preferred.reached:
+        return ""
+    (around,) = (one for one in found if one.question.model == preferred.law)
+    known, count = {one.question.model for one in found}, laws.table.set_index("law")["parameters"]
+    fewer = [law for law in of_few_parameters(laws.ranked) if count[law] < count[preferred.law] and law not in known]
+    asked = sorted(filter(is_rate_independent, fewer), key=lambda law: count[law])
+    return simpler_law(preferred.law, around.found, asked, seed)
 
 
 def _judged(found: Sequence[Around], laws: Sequence[str]) -> Diagnosis:

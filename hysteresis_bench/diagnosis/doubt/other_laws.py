@@ -41,7 +41,7 @@ class OtherLaws:
     """Fits laws to the records of a diagnosis.
 
     asked : the law that was asked about, as `stack` has it;  few : the records of `stack` with fewer samples
-    effects : formulas in question;  floor : RMS of the noise
+    effects : in question;  floor : RMS of the noise
     """
 
     asked: str
@@ -89,7 +89,8 @@ class OtherLaws:
         return current, tuple(names)
 
     def _possible(self, fitter: Fitter) -> list[str]:
-        return [name for name in self.effects if name in fitter.stack.candidates()[0]]
+        known = {*fitter.stack.candidates()[0], *fitter.stack.free_forms()}
+        return [name for name in self.effects if name in known]
 
     def _fitter(self, law: str, records: tuple[Record, ...]) -> Fitter:
         if law == self.asked:
