@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, f_tail
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
+from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
+from hysteresis_bench.diagnosis.search.selection import MISFIT
 
 REMAINS = 1.1
 """RMSE over noise from which what is left matters."""
@@ -25,7 +32,7 @@ class Remainder:
     """equation : what describes the residual, None where it does not matter
     matters : something with a cause is left, or a residual that is too small a sample to tell
     slow : nothing is left but noise that changes slowly: correlated from sample to sample, without any cause that was
-        measured, and described by no term
+        measured, described by no term, and no louder where nothing was fitted
     """
 
     equation: Equation | None
@@ -48,4 +55,19 @@ def remainder(stage: Stage, evidence: Evidence) -> Remainder:
     equation = find_terms([view.record for view in views], residuals, simulated)
     caused = [test for test in tests if test.name not in OF_THE_NOISE and "scatter" not in test.name]
     slow = any(test.name == "whiteness" for test in tests) and not caused and not equation.terms
+    slow = slow and not _louder(stage, residuals)
     return Remainder(equation, not slow, slow)
+
+
+def _louder(stage: Stage, residuals: Sequence[Array]) -> bool:
+    """Is what was held out missed by more than what was fitted? Slow noise is as loud in every record.
+
+    An F test of the mean squares, with as many effective samples as one of the fitted records has."""
+    if stage.held_out is None:
+        return False
+    squares = [part**2 for part in residuals]
+    level = float(np.mean(np.concatenate(squares)))
+    ratio, effective = stage.held_out.rmse**2 / level, effective_samples([part - level for part in squares])
+    corrected = ratio * effective / (effective + 2.0 * stage.values.size)
+    p = f_tail(corrected, effective / len(residuals), effective - stage.values.size)
+    return ratio > MISFIT**2 and p < LEVEL

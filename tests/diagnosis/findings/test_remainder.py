@@ -1,0 +1,45 @@
+"""Slow noise is as loud where nothing was fitted: what is missed there by more has a cause."""
+
+from types import SimpleNamespace as Of
+
+import numpy as np
+import pytest
+
+from hysteresis_bench.diagnosis.findings.remainder import _louder
+
+RECORDS, SAMPLES = 4, 800
+
+
+def stage(held_out):
+    """Four parameters; held_out : RMSE, None where nothing is held out."""
+    held = None if held_out is None else Of(rmse=held_out)
+    return Of(held_out=held, values=np.zeros(4))
+
+
+def residuals(seed, decay=0.9):
+    """Autoregressive noise of unit variance, a record each."""
+    rng, parts = np.random.default_rng(seed), []
+    for _ in range(RECORDS):
+        part = np.empty(SAMPLES)
+        part[0] = rng.standard_normal()
+        for i, step in enumerate(np.sqrt(1.0 - decay**2) * rng.standard_normal(SAMPLES - 1), 1):
+            part[i] = decay * part[i - 1] + step
+        parts.append(part)
+    return parts
+
+
+def test_another_record_of_the_same_noise_is_not_louder():
+    called = 0
+    for seed in range(200):
+        *fitted, other = [*residuals(seed), residuals(1000 + seed)[0]]
+        called += _louder(stage(float(np.sqrt(np.mean(other**2)))), fitted)
+    assert called <= 6  # level 0.01; more than 6 of 200 has a probability of 0.004
+
+
+@pytest.mark.parametrize("held_out", [1.8, 3.0])
+def test_what_is_missed_by_much_more_is_louder(held_out):
+    assert _louder(stage(held_out), residuals(1))
+
+
+def test_where_nothing_was_held_out_nothing_is_louder():
+    assert not _louder(stage(None), residuals(1))
