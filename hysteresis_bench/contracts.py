@@ -1,9 +1,8 @@
 """What a plugin promises: Model, Effect, Optimizer, Rig. Abstract here, final in the plugins.
 
-Everything is a swarm: a simulation is always of many parameter vectors at once, and one vector is a swarm of 1. Arrays
-are (samples, swarm), float64, swarm innermost and contiguous. Settings are the fields of a frozen dataclass; parameters
-are what a fit finds. A plugin imports this module, `parameters`, `signals` and `kernels`, and nothing above them;
-whatever is slow to import (its kernel, a library) it imports inside its method, so that `list` stays fast.
+A simulation is always of a swarm of parameter vectors; arrays are (samples, swarm), float64, swarm innermost and
+contiguous. Settings are fields of a frozen dataclass. A plugin imports this module, `parameters`, `signals` and
+`kernels`, and nothing above them, and what is slow to import inside its method: `list` stays fast.
 """
 
 from __future__ import annotations
@@ -137,6 +136,8 @@ class Effect(ABC):
     """Other effects by name, and why data may not tell them from it, as a sentence ends. One of the two may say so."""
     affine: ClassVar[bool] = False
     """Whether the output is an affine function of what is wrapped: the parameters in which that is affine stay so."""
+    relaxes: ClassVar[bool] = False
+    """Whether of a step the output rises steadily to the whole step, as of a mixture of relaxations."""
     linear: ClassVar[tuple[str, ...]] = ()
     """Parameters in which the output is affine, jointly with what is wrapped: amplitudes of what is merely added."""
     estimates: ClassVar[int] = 0
@@ -200,7 +201,6 @@ class Objective(Protocol):
     def budget(self) -> int: ...
     @property
     def evaluations(self) -> int: ...
-
     @property
     def linear(self) -> tuple[int, ...]:
         """Coordinates of the unit box in which the residuals are jointly affine."""

@@ -14,9 +14,10 @@ from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, OPEN
-from hysteresis_bench.diagnosis.laws.dynamics import drifts, linear_dynamics
+from hysteresis_bench.diagnosis.laws.comparison import compare as ranked
+from hysteresis_bench.diagnosis.laws.dynamics import changes, curves, drifts, linear_dynamics
 from hysteresis_bench.diagnosis.laws.passing import Passing
-from hysteresis_bench.diagnosis.question import DiagnosisOptions
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.settling import CLOSED, passed
 from hysteresis_bench.fit.unseen.whole import left_out
@@ -125,6 +126,31 @@ def test_a_lag_makes_no_law_with_dynamics_of_its_own_the_right_one():
     found = diagnose(data, options=replace(ONE, laws=names))
     assert (found.model_name, found.effects) == ("bouc-wen", ("output-lag",))
     assert found.unseen < 1.1 * found.floor
+
+
+def bent(u: np.ndarray) -> np.ndarray:
+    y = BOUC_WEN(u)
+    return y + 0.25 * y**2 / np.max(np.abs(y))
+
+
+def growing(u: np.ndarray) -> np.ndarray:
+    return BOUC_WEN(u) * (1.0 + 0.3 * TIME / TIME[-1])
+
+
+@pytest.mark.parametrize(("response", "richer"), [(bent, "preisach"), (growing, "maxwell-slip")])
+def test_a_law_of_more_parameters_does_not_take_the_place_of_one_with_an_effect(response, richer):
+    asked = Question("", options=replace(ONE, laws=("bouc-wen", richer)))
+    found = ranked(Dataset(records(response)), asked, effects_follow=True)
+    assert found.table.loc[0, "law"] == richer
+    assert found.ranked[0] == "bouc-wen"
+    assert "With what may act around it, bouc-wen predicts that to" in found.words
+
+
+def test_what_laws_are_ranked_with_are_effects_that_no_relaxation_makes_up():
+    stack = Stack(registry.build("models", "dahl"), records(BOUC_WEN))
+    assert {*curves(stack)} == {"input-curve", "output-curve", "resonance", "droop"}
+    assert {"gain-with-time", "gain-with-path", "disturbance-wave"} <= {*changes(stack)}
+    assert not {*changes(stack)} & {*curves(stack), *linear_dynamics(stack), "play-bank"}
 
 
 def test_laws_are_ranked_with_a_drift_and_linear_dynamics_on_either_side():

@@ -45,6 +45,8 @@ OPEN = (
     "The record that was fitted closes no loop: nothing in it tells how a law comes back. Do not believe one beyond "
     "these samples, and record a whole cycle."
 )
+LEADING = 4
+"""Laws that are tried with what changes with time, path or temperature, and added waves: what is left last."""
 PASSED = f"Every loop was passed until its law closed it, {FIRST_REPEATS} to {MOST} times, before it was scored."
 
 
@@ -54,7 +56,7 @@ class Comparison:
     seconds (CPU), reason (why there is no fit)
     chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
     ranked : what was fitted, as of `ranking`; where effects will be sought around several records and no law without
-    dynamics of its own comes down to the noise alone, of such a one with a drift and any linear dynamics
+    dynamics of its own comes down to the noise alone, of such a one with what may act around it (`_surrounded`)
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -103,7 +105,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         fitted = workers.map([("law", name) for name in names if name not in reasons])
         # blocks of a lone record cannot judge between laws with dynamics around them
         several = effects_follow and len(thin.records) > 1
-        moved = workers.map([("with_dynamics", law) for law in _wanting(fitted, floor)]) if several else []
+        moved = _surrounded(workers, _wanting(fitted, floor), floor) if several else []
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
@@ -129,7 +131,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     ranked = ranking([better.get(law.model, law) for law in laws], MATTERS * floor, out.blocks, like=out.like)
     if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
         equal = [law.model for law in moved if law is not first and law.rmse <= TIED * first.rmse]
-        words += f" With a drift and linear dynamics around it, {first.model} predicts that to {first.rmse:.3g}"
+        words += f" With what may act around it, {first.model} predicts that to {first.rmse:.3g}"
         words += f", and {listed(sorted(equal))} as well." if equal else "."
     return Comparison(table, chosen, words, floor, dict(dataset.units), notes, found, ranked)
 
@@ -139,6 +141,17 @@ def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
     may owe their place to an effect that the others lack."""
     still = [law for law in fitted if law.found is not None and is_rate_independent(law.model)]
     return still if min((law.rmse for law in still), default=0.0) > MATTERS * floor else []
+
+
+def _surrounded(workers: Workers[Law], laws: Sequence[Law], floor: float) -> list[Law]:
+    """As they predict with what may act around them, tried in rounds until one comes down to the noise."""
+    moved, alone = workers.map([("with_dynamics", law) for law in laws]), {law.model: law for law in laws}
+    if _wanting(moved, floor):
+        moved = workers.map([("with_curves", alone[law.model], law) for law in moved])
+    if _wanting(moved, floor):
+        moved = sorted(moved, key=lambda law: law.rmse)
+        moved[:LEADING] = workers.map([("with_changes", alone[law.model], law) for law in moved[:LEADING]])
+    return moved
 
 
 def _prepared(dataset: Dataset, question: Question) -> Dataset:

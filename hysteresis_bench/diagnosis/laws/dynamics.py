@@ -1,12 +1,19 @@
-"""What a law is ranked with where effects will be sought around it: drifts, and linear dynamics on either side."""
+"""What a law is ranked with where effects will be sought around it.
+
+In rounds, until one law comes down to the noise: drifts and relaxations; curves of the input and of the output, and
+linear dynamics that overshoot; the other free forms.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Iterator
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.free_forms import FreeForm
 
 SIDES = ("dynamics before the law", "dynamics after the law")
+CURVES = ("curve of the input", "curve of the output")
 """Families."""
 
 
@@ -24,6 +31,23 @@ def linear_dynamics(stack: Stack) -> list[str]:
     def plainness(name: str) -> tuple[bool, int, str]:
         return not isinstance(stack.effect(name), FreeForm), len(stack.effect(name).parameters), name
 
-    possible = [name for name in (*stack.free_forms(), *stack.candidates()[0]) if stack.effect(name).affine]
-    sides = ([name for name in possible if stack.effect(name).family == side] for side in SIDES)
+    sides = ([name for name in _linear(stack) if stack.effect(name).family == side] for side in SIDES)
     return [min(names, key=plainness) for names in sides if names]
+
+
+def curves(stack: Stack) -> list[str]:
+    """Free curves of input and output, and formulas of linear dynamics that no relaxations make up."""
+    free = [name for name in stack.free_forms() if stack.effect(name).family in CURVES]
+    known = {*stack.free_forms(), *linear_dynamics(stack)}
+    return [*free, *(name for name in _linear(stack) if name not in known and not stack.effect(name).relaxes)]
+
+
+def changes(stack: Stack) -> list[str]:
+    """The free forms of all other families but the law's own."""
+    known = {*SIDES, *CURVES, "law"}
+    return [name for name in stack.free_forms() if stack.effect(name).family not in known]
+
+
+def _linear(stack: Stack) -> Iterator[str]:
+    names = (*stack.free_forms(), *stack.candidates()[0])
+    return (name for name in names if stack.effect(name).affine and stack.effect(name).family in SIDES)

@@ -48,6 +48,14 @@ class Passing:
         """As of `Laws.with_dynamics`, after as few passes as every law begins with."""
         return self.begun.with_dynamics(law)
 
+    def with_curves(self, law: Law, known: Law) -> Law:
+        """As of `Laws.with_curves`, after as many."""
+        return self.begun.with_curves(law, known)
+
+    def with_changes(self, law: Law, known: Law) -> Law:
+        """As of `Laws.with_changes`, after as many."""
+        return self.begun.with_changes(law, known)
+
     def _after(self, passes: int) -> Laws:
         ready = self.seen.map(lambda record: passed(record, passes))
         dataset = with_held_out(ready)[0] if self.split else ready

@@ -205,6 +205,15 @@ class EffectContract(PluginContract):
         error, scale = float(np.max(np.abs(0.3 * low + 0.7 * high - middle))), float(np.max(np.abs([low, high])))
         expect(not effect.affine or error <= 1e-9 * scale, f"it is not affine: off by {error:.2g} of {scale:.2g}.")
 
+    def test_it_relaxes_where_it_says_so(self, plugin: str) -> None:
+        """Where it says `relaxes`, the output of a step of the input rises steadily, and to no more than the step."""
+        effect = self.build(plugin)
+        ordinary = measured()
+        record = locked(replace(ordinary, input=np.where(np.arange(ordinary.time.size) < 40, 0.0, 1.0)))
+        rising = _around(effect).simulate(record.signal, _values(effect, ordinary, 16)) / (SLOPE + BEND)
+        steady = np.min(np.diff(rising, axis=0)) >= -1e-9 and np.max(rising) <= 1.0 + 1e-9
+        expect(not effect.relaxes or steady, "of a step its output falls, or rises beyond the step: it does not relax.")
+
     def test_it_applies_to_a_good_record(self, plugin: str) -> None:
         """It has no reason against an ordinary record."""
         reason = self.build(plugin).inapplicable([measured()])

@@ -71,6 +71,7 @@ class Creep(Effect):
     acts = "output"
     family = "dynamics after the law"
     affine = True
+    relaxes = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "drift": "creep that is slow against the record is a straight line in time",
         "input-lag": "both let a part of the response arrive late",

@@ -51,6 +51,7 @@ class InputLag(Effect):
     acts = "input"
     family = "dynamics before the law"
     affine = True
+    relaxes = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "transport-delay": (
             "after the transient a lag before a rate-independent hysteresis and a delay both only shift the loop in "

@@ -49,6 +49,7 @@ class OutputLag(Effect):
     acts = "output"
     family = "dynamics after the law"
     affine = True
+    relaxes = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "creep": "creep with one relaxation and nearly the whole response late is a lag",
         "resonance": "an overdamped resonance is a lag",

@@ -60,6 +60,7 @@ class TransportDelay(Effect):
     acts = "output"
     family = "dynamics after the law"
     affine = True
+    relaxes = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_shifted, _between)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_all_pass, _three_ways)
     parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
