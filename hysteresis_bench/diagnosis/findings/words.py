@@ -141,7 +141,8 @@ def headline(outcome: Outcome) -> str:
     elif outcome.cause:
         said = f"No effect is named, as the law itself is the cause: {where} the RMSE is {last.rmse:.3g}{unit}"
     else:
-        said = f"No effect that is known here is missing: {where} the RMSE is {last.rmse:.3g}{unit}"
+        none = "No effect is named" if outcome.unexplained else "No effect that is known here is missing"
+        said = f"{none}: {where} the RMSE is {last.rmse:.3g}{unit}"
     said = f"{said}; the noise is {outcome.evidence.noise.floor:.3g}."
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."

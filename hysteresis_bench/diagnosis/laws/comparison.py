@@ -25,7 +25,7 @@ from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
-from hysteresis_bench.diagnosis.search.selection import MATTERS
+from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
@@ -144,14 +144,19 @@ def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
 
 
 def _surrounded(workers: Workers[Law], laws: Sequence[Law], floor: float) -> list[Law]:
-    """As they predict with what may act around them, tried in rounds until one comes down to the noise."""
+    """As they predict with what may act around them, tried in rounds while all of them are far from the noise."""
     moved, alone = workers.map([("with_dynamics", law) for law in laws]), {law.model: law for law in laws}
-    if _wanting(moved, floor):
+    if _far(moved, floor):
         moved = workers.map([("with_curves", alone[law.model], law) for law in moved])
-    if _wanting(moved, floor):
+    if _far(moved, floor):
         moved = sorted(moved, key=lambda law: law.rmse)
         moved[:LEADING] = workers.map([("with_changes", alone[law.model], law) for law in moved[:LEADING]])
     return moved
+
+
+def _far(laws: Sequence[Law], floor: float) -> bool:
+    """Does the best leave more than a right law may that predicts by many parameters?"""
+    return min((law.rmse for law in laws), default=0.0) > MISFIT * floor
 
 
 def _prepared(dataset: Dataset, question: Question) -> Dataset:
