@@ -39,6 +39,7 @@ class CaseTicket:
 class Case:
     """What became of one case; effects are names joined by spaces, absent numbers None.
 
+    model : that was asked about, or else the law that was found
     named : hidden effects that were claimed by name;  tied : claimed only as tied with another
     missed : hidden and neither;  extra : claimed without being hidden
     sure : probabilities of the claims, in their order, "-" where none is told
@@ -126,7 +127,7 @@ def run_case(ticket: CaseTicket) -> Case:
         fresh = float(np.sqrt(np.mean(np.concatenate(errors) ** 2))) / noise
     return Case(
         bench.name,
-        bench.model,
+        found.model_name,
         ticket.number,
         "done",
         hidden=" ".join(truth),
