@@ -1,7 +1,7 @@
 """What a law is ranked with where effects will be sought around it.
 
-In rounds, until one law comes down to the noise: drifts and relaxations; curves of the input and of the output, and
-linear dynamics that overshoot; the other free forms.
+In rounds, while all laws stay far from the noise: drifts and relaxations; curves of the input and of the output, plays,
+and linear dynamics that overshoot; the other free forms.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.free_forms import FreeForm
 
 SIDES = ("dynamics before the law", "dynamics after the law")
-CURVES = ("curve of the input", "curve of the output")
+SHAPES = ("curve of the input", "curve of the output", "law")
 """Families."""
 
 
@@ -36,15 +36,15 @@ def linear_dynamics(stack: Stack) -> list[str]:
 
 
 def curves(stack: Stack) -> list[str]:
-    """Free curves of input and output, and formulas of linear dynamics that no relaxations make up."""
-    free = [name for name in stack.free_forms() if stack.effect(name).family in CURVES]
+    """Free curves of input and output, free plays, and formulas of linear dynamics that no relaxations make up."""
+    free = [name for name in stack.free_forms() if stack.effect(name).family in SHAPES]
     known = {*stack.free_forms(), *linear_dynamics(stack)}
     return [*free, *(name for name in _linear(stack) if name not in known and not stack.effect(name).relaxes)]
 
 
 def changes(stack: Stack) -> list[str]:
-    """The free forms of all other families but the law's own."""
-    known = {*SIDES, *CURVES, "law"}
+    """The free forms of all other families."""
+    known = {*SIDES, *SHAPES}
     return [name for name in stack.free_forms() if stack.effect(name).family not in known]
 
 
