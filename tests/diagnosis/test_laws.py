@@ -15,8 +15,8 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.baseline import baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE, OPEN
 from hysteresis_bench.diagnosis.laws.comparison import compare as ranked
-from hysteresis_bench.diagnosis.laws.dynamics import changes, curves, drifts, linear_dynamics
 from hysteresis_bench.diagnosis.laws.passing import Passing
+from hysteresis_bench.diagnosis.laws.surroundings import changes, curves, drifts, linear_dynamics
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.settling import CLOSED, passed

@@ -24,6 +24,7 @@ from hysteresis_bench.diagnosis.laws.choice import TIED, choose, ranking
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
+from hysteresis_bench.diagnosis.laws.surroundings import changes, curves
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
 from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
@@ -147,10 +148,10 @@ def _surrounded(workers: Workers[Law], laws: Sequence[Law], floor: float) -> lis
     """As they predict with what may act around them, tried in rounds while all of them are far from the noise."""
     moved, alone = workers.map([("with_dynamics", law) for law in laws]), {law.model: law for law in laws}
     if _far(moved, floor):
-        moved = workers.map([("with_curves", alone[law.model], law) for law in moved])
+        moved = workers.map([("with_any", alone[law.model], law, curves) for law in moved])
     if _far(moved, floor):
         moved = sorted(moved, key=lambda law: law.rmse)
-        moved[:LEADING] = workers.map([("with_changes", alone[law.model], law) for law in moved[:LEADING]])
+        moved[:LEADING] = workers.map([("with_any", alone[law.model], law, changes) for law in moved[:LEADING]])
     return moved
 
 

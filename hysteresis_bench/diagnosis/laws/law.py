@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,7 +14,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.diagnosis.laws.dynamics import changes, curves, drifts, linear_dynamics
+from hysteresis_bench.diagnosis.laws.surroundings import drifts, linear_dynamics
 from hysteresis_bench.fit.accuracy import accuracy, simulated
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
@@ -117,16 +117,11 @@ class Laws:
             best = min([best, *self._moved(fitter, best, names)], key=lambda one: one.rmse)
         return best
 
-    def with_curves(self, law: Law, known: Law) -> Law:
-        """What is `known` of a law, or the law alone with a curve, or with dynamics that overshoot, where that predicts
-        better."""
+    def with_any(self, law: Law, known: Law, asked: Callable[[Stack], Sequence[str]]) -> Law:
+        """What is `known` of a law, or the law alone with one of the effects that are asked of its stack, where that
+        predicts better."""
         fitter = self.fitter(law.model, self.records)
-        return min([known, *self._moved(fitter, law, curves(fitter.stack))], key=lambda one: one.rmse)
-
-    def with_changes(self, law: Law, known: Law) -> Law:
-        """As `with_curves`, with a free form of any other family."""
-        fitter = self.fitter(law.model, self.records)
-        return min([known, *self._moved(fitter, law, changes(fitter.stack))], key=lambda one: one.rmse)
+        return min([known, *self._moved(fitter, law, asked(fitter.stack))], key=lambda one: one.rmse)
 
     def _moved(self, fitter: Fitter, law: Law, names: Sequence[str]) -> Iterator[Law]:
         """With each of these effects more."""

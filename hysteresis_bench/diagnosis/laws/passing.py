@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.law import Law, Laws
 from hysteresis_bench.diagnosis.preparation import thinned, with_held_out
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, passed
@@ -48,13 +50,9 @@ class Passing:
         """As of `Laws.with_dynamics`, after as few passes as every law begins with."""
         return self.begun.with_dynamics(law)
 
-    def with_curves(self, law: Law, known: Law) -> Law:
-        """As of `Laws.with_curves`, after as many."""
-        return self.begun.with_curves(law, known)
-
-    def with_changes(self, law: Law, known: Law) -> Law:
-        """As of `Laws.with_changes`, after as many."""
-        return self.begun.with_changes(law, known)
+    def with_any(self, law: Law, known: Law, asked: Callable[[Stack], Sequence[str]]) -> Law:
+        """As of `Laws.with_any`, after as many."""
+        return self.begun.with_any(law, known, asked)
 
     def _after(self, passes: int) -> Laws:
         ready = self.seen.map(lambda record: passed(record, passes))
