@@ -14,8 +14,9 @@ from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, numbers
 UNSEEN, HELD_OUT, WITHOUT, FLOOR = SERIES[0], SERIES[3], MUTED, SERIES[2]
 
 AROUND = (
-    " With dynamics: what is left out, by the law with a drift of every record and with lags of any weights before or "
-    "after it, as far as they help; a law with dynamics of its own has them in itself. By these the laws were ranked."
+    " With an effect: what is left out, by the law with what helps it most: a drift of every record, lags of any "
+    "weights before or after it, or, where all laws stayed far from the noise, a curve, plays, an overshoot or a "
+    "change with time; a law with dynamics of its own has such effects in itself. By these the laws were ranked."
 )
 
 Laws = Sequence[Mapping[str, Any]]
@@ -72,7 +73,7 @@ def laws_table(laws: Laws, chosen: str | None, floor: float, units: Units) -> Ta
     rmse = named("RMSE", units, "output")
     header = ["Law", "Parameters", f"{rmse}, left out", "times the noise", "fitted"]
     around = any(law.get("around") is not None for law in laws)
-    header += [*(["held out"] if held_out else []), *(["left out, with dynamics"] if around else []), "CPU seconds"]
+    header += [*(["held out"] if held_out else []), *(["left out, with an effect"] if around else []), "CPU seconds"]
     rows = []
     for law in fitted_ones(laws):
         mine = law["law"] == chosen

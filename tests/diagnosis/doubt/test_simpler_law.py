@@ -1,6 +1,5 @@
 """A law that contains the right one follows as well as it: the right one is asked too."""
 
-import numpy as np
 import pytest
 
 from hysteresis_bench import measure
@@ -11,7 +10,6 @@ from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.search import search
 
 RECORDS = ("slow", "fast", "nested")
-FEWER = ("dahl", "bouc-wen", "ferroelectric")
 
 
 @pytest.fixture(scope="module")
@@ -26,12 +24,11 @@ def around(names_only):
 
 def test_the_law_that_it_contains_follows_as_well(around):
     assert around.selection.adopted(around.best) == ("output-lag",)
-    assert simpler_law("bouc-wen-generalized", around, FEWER[1:], 0) == "bouc-wen"
-    assert simpler_law("bouc-wen-generalized", around, FEWER[2:], 0) == ""
+    assert simpler_law("bouc-wen-generalized", around, ("bouc-wen", "ferroelectric"), 0) == "bouc-wen"
+    assert simpler_law("bouc-wen-generalized", around, ("ferroelectric",), 0) == ""
     assert simpler_law("bouc-wen-generalized", around, (), 0) == ""
 
 
-def test_the_first_of_them_is_told(around):
-    found = simpler_law("bouc-wen-generalized", around, FEWER, 0)
-    assert found in FEWER[:2]
-    assert np.isfinite(around.best.rmse)
+def test_they_are_asked_in_their_order(around):
+    assert simpler_law("bouc-wen-generalized", around, ("bouc-wen", "dahl"), 0) == "bouc-wen"
+    assert simpler_law("bouc-wen-generalized", around, ("ferroelectric", "bouc-wen"), 0) == "bouc-wen"
