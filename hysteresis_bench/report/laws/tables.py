@@ -56,10 +56,22 @@ def draw_laws(axes: Any, laws: Laws, floor: float, units: Units) -> None:
     axes.plot([], [], color=FLOOR, linestyle=(0, (4, 3)), label="noise")
     numbers_beside(axes, columns)
     axes.set_xscale("log")
+    _few_ticks(axes)
     axes.set_yticks(range(len(shown)), [law["law"] for law in shown])
     axes.set_ylim(len(shown) - 0.5, -0.9)
     axes.set_xlabel(named("RMSE", units, "output"))
     axes.figure.legend(loc="outside upper left", ncols=3, handlelength=1.4)
+
+
+def _few_ticks(axes: Any) -> None:
+    """At 1, 2 and 5 of every decade, where there are few: more labels run into each other beside the columns."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    lower, upper = axes.get_xlim()
+    if upper < 50.0 * lower:
+        axes.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0), numticks=12))
+        axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axes.xaxis.set_minor_formatter(NullFormatter())
 
 
 def fitted_ones(laws: Laws) -> list[Mapping[str, Any]]:
