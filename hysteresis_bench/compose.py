@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -11,10 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.arrays import Array
+from hysteresis_bench.arrays import Array, distinct_columns
 from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+
+MOSTLY = 0.75
+"""Share of a swarm up to which it is worth the copies to simulate its distinct columns only."""
 
 
 @dataclass(frozen=True)
@@ -56,19 +59,11 @@ class System:
 
     def simulate(self, signal: Signal, values: Array) -> Array:
         """values : (dimension, swarm), in units -> (samples, swarm)."""
-        model_values, *effect_values = self._named(values)
-
-        def run(inner_signal: Signal) -> Array:
-            return self.model.simulate(inner_signal, model_values)
-
-        wrapped: Callable[[Signal], Array] = run
-        for (_, effect), p in zip(self.effects, effect_values, strict=True):
-            wrapped = _around(effect, wrapped, p)
-        return wrapped(signal)
+        return self._wrapped(len(self.effects), signal, self._with_fixed(values))
 
     def model_values(self, values: Array) -> Any:
         """The model's own, as it takes them: a namedtuple of (swarm,) arrays."""
-        return self._named(values)[0]
+        return self._own(0, self._with_fixed(values))
 
     def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
@@ -107,6 +102,13 @@ class System:
         return [slice(int(low), int(high)) for low, high in pairwise(ends)]
 
     @cached_property
+    def _rows_within(self) -> list[Array]:
+        """For every depth the rows on which the model in so many effects depends."""
+        inside = [self._rows[position] for position in self._inside.values()]
+        parts = [[*self._rows[: depth + 1], *inside] for depth in range(len(self._stack))]
+        return [np.unique(np.concatenate([np.arange(rows.stop)[rows] for rows in part])) for part in parts]
+
+    @cached_property
     def _names(self) -> list[str]:
         return [prefix + parameter.name for prefix, part in self._stack for parameter in part.parameters]
 
@@ -127,13 +129,35 @@ class System:
             if name in self.model.offers
         }
 
+    def _wrapped(self, depth: int, signal: Signal, full: Array) -> Array:
+        """The model in its innermost `depth` effects; full : (dimension, swarm), the fixed values too."""
+        if depth == 0:
+            response: Array = self.model.simulate(signal, self._own(0, full))
+            return response
+        _, effect = self.effects[depth - 1]
+        return effect.apply(lambda acting: self._once(depth - 1, acting, full), signal, self._own(depth, full))
+
+    def _once(self, depth: int, signal: Signal, full: Array) -> Array:
+        """The same, columns that differ only further out simulated once: most of the forward differences, and of the
+        starts, of an effect on the output."""
+        if signal.input.shape[1] > 1:
+            return self._wrapped(depth, signal, full)
+        first, place = distinct_columns(full[self._rows_within[depth]])
+        if first.size > MOSTLY * place.size:
+            return self._wrapped(depth, signal, full)
+        return self._wrapped(depth, signal, np.ascontiguousarray(full[:, first])).take(place, axis=1)
+
     def _named(self, values: Array) -> list[Any]:
         """The values of the model and of every effect, a namedtuple of (swarm,) arrays each."""
         full = self._with_fixed(values)
-        found: list[Any] = [named(*full[rows]) for named, rows in zip(self._namedtuples, self._rows, strict=True)]
-        if self._inside:
-            found[0] = self._model_values(*found[0], *(found[position] for position in self._inside.values()))
-        return found
+        return [self._own(position, full) for position in range(len(self._stack))]
+
+    def _own(self, position: int, full: Array) -> Any:
+        """Of the model, at 0, or of an effect, innermost first."""
+        named = self._namedtuples[position](*full[self._rows[position]])
+        if position or not self._inside:
+            return named
+        return self._model_values(*named, *(self._own(inside, full) for inside in self._inside.values()))
 
     def _with_fixed(self, values: Array) -> Array:
         if not self.fixed:
@@ -155,7 +179,3 @@ class System:
 def _values(*names: str) -> Any:
     """Made once: a class takes longer than a short simulation."""
     return namedtuple("Values", names)
-
-
-def _around(effect: Effect, inner: Callable[[Signal], Array], p: Any) -> Callable[[Signal], Array]:
-    return lambda signal: effect.apply(inner, signal, p)
