@@ -1,7 +1,7 @@
 """Generalized Bouc-Wen hysteresis of a swarm: `bouc_wen_generalized_step` has the law and its step for one particle.
 
 Here LANES particles make that step side by side, those that yield after a like displacement together, as they want as
-many parts of an increment: five times as fast for a swarm of fifty.
+many parts of an increment.
 """
 
 from __future__ import annotations
@@ -17,10 +17,11 @@ from hysteresis_bench.kernels.elementary import exponential, logarithm
 LANES = 8
 """Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
 
-# Rows of a group: the parameters, then the state z and E, the increment, and what the steps of one share.
+# Rows of a group: the parameters, then the state z and E, the increment, and what its steps share.
 YIELD, POWER, BETA, PHI, STRENGTH, STIFFNESS, PINCHING, GROWTH, PLACE, WIDTH = (row * LANES for row in range(10))
-STATE, ENERGY, STEP, PART, STEPS, G = (row * LANES for row in range(10, 16))
-ROWS = 16
+STATE, ENERGY, STEP, LEFT, G = (row * LANES for row in range(10, 15))
+ALONG, AGAINST, BOUND, PINCHED, STIFF = (row * LANES for row in range(15, 20))
+ROWS = 20
 
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
@@ -41,37 +42,63 @@ def _relaxed(g, a, b, width):  # type: ignore[no-untyped-def]
     return g + (a - b * g) * weakened
 
 
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _begun(s):  # type: ignore[no-untyped-def]
+    """What the steps of an increment share."""
+    for j in range(min(LANES, s.size)):
+        step, energy = s[STEP + j], s[ENERGY + j]
+        left = abs(step)
+        g = s[STATE + j] if step >= 0.0 else -s[STATE + j]
+        ahead = min(g + 0.5 * left / s[YIELD + j], 1.0)
+        between = max(energy + 0.25 * (g + ahead) * left, 0.0)
+        nu = min(max(1.0 + s[STRENGTH + j] * between, LEAST), 1.0 / LEAST)
+        eta = min(max(1.0 + s[STIFFNESS + j] * between, LEAST), 1.0 / LEAST)
+        phi = s[PHI + j] if step >= 0.0 else -s[PHI + j]
+        along = nu * (1.0 + 2.0 * phi)
+        s[LEFT + j], s[G + j], s[ALONG + j] = left, g, along
+        s[AGAINST + j] = nu * (1.0 - 2.0 * s[BETA + j])
+        s[BOUND + j] = exponential(logarithm(along) / -s[POWER + j])
+        s[PINCHED + j] = s[PINCHING + j] * (1.0 - exponential(-s[GROWTH + j] * between))
+        s[STIFF + j] = 1.0 / (eta * s[YIELD + j])
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _advanced(s, last):  # type: ignore[no-untyped-def]
+    """One step of every lane, of no length where nothing is left."""
+    for j in range(min(LANES, s.size)):
+        g, left, n, stiff = s[G + j], s[LEFT + j], s[POWER + j], s[STIFF + j]
+        along, against, bound, pinched = s[ALONG + j], s[AGAINST + j], s[BOUND + j], s[PINCHED + j]
+        place, narrow = s[PLACE + j] * bound, s[WIDTH + j]
+        a, b = _coefficients(g, abs(g), along, against, n, stiff, pinched, place, narrow)
+        steepest = max(abs(a - b * g), stiff if g < 0.0 else 0.0)
+        width = left if last | (steepest * left <= FINE) else FINE / steepest
+        edge = max(bound, g)
+        middle = min(_relaxed(g, a, b, 0.5 * width), edge)
+        largest = max(abs(g), abs(middle))
+        a, b = _coefficients(middle, largest, along, against, n, stiff, pinched, place, narrow)
+        new = min(_relaxed(g, a, b, width), edge)
+        s[ENERGY + j] = max(s[ENERGY + j] + 0.5 * (g + new) * width, 0.0)
+        s[G + j] = new
+        s[LEFT + j] = left - width
+
+
+@njit(forceinline=True, error_model="numpy")
+def _going(s):  # type: ignore[no-untyped-def]
+    """How many lanes have something left."""
+    going = 0
+    for j in range(min(LANES, s.size)):
+        going += 1 if s[LEFT + j] > 0.0 else 0
+    return going
+
+
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
 def strained_together(s: Array) -> None:
     """z and E of a group after the input has gone on by s[STEP:]."""
-    most = 1.0
-    for j in range(LANES):
-        step = s[STEP + j]
-        width = abs(step)
-        steps = min(np.floor(width / (FINE * s[YIELD + j])) + 1.0, MOST_STEPS)
-        s[PART + j] = width / steps
-        s[STEPS + j] = steps if step != 0.0 else 0.0
-        s[G + j] = s[STATE + j] if step >= 0.0 else -s[STATE + j]
-        most = max(most, steps)
-    for k in range(int(most)):
-        for j in range(LANES):
-            g, energy, width, n = s[G + j], s[ENERGY + j], s[PART + j], s[POWER + j]
-            nu = min(max(1.0 + s[STRENGTH + j] * energy, LEAST), 1.0 / LEAST)
-            eta = min(max(1.0 + s[STIFFNESS + j] * energy, LEAST), 1.0 / LEAST)
-            phi = s[PHI + j] if s[STEP + j] >= 0.0 else -s[PHI + j]
-            along, against = nu * (1.0 + 2.0 * phi), nu * (1.0 - 2.0 * s[BETA + j])
-            bound = exponential(logarithm(along) / -n)
-            pinching = s[PINCHING + j] * (1.0 - exponential(-s[GROWTH + j] * energy))
-            place, narrow, stiff = s[PLACE + j] * bound, s[WIDTH + j], 1.0 / (eta * s[YIELD + j])
-            a, b = _coefficients(g, abs(g), along, against, n, stiff, pinching, place, narrow)
-            edge = max(bound, g)
-            middle = min(_relaxed(g, a, b, 0.5 * width), edge)
-            largest = max(abs(g), abs(middle))
-            a, b = _coefficients(middle, largest, along, against, n, stiff, pinching, place, narrow)
-            new = min(_relaxed(g, a, b, width), edge)
-            going = k < s[STEPS + j]
-            s[ENERGY + j] = max(energy + 0.5 * (g + new) * width, 0.0) if going else energy
-            s[G + j] = new if going else g
+    _begun(s)
+    for step in range(1, MOST_STEPS + 1):
+        _advanced(s, step == MOST_STEPS)
+        if _going(s) == 0:
+            break
     for j in range(LANES):
         s[STATE + j] = s[G + j] if s[STEP + j] >= 0.0 else -s[G + j]
 

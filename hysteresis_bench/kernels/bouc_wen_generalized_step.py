@@ -14,8 +14,9 @@ degrade strength and stiffness and pinch the loop [2, 3], z_u = (nu (1 + 2 phi s
 [2] T. T. Baber, M. N. Noori, J. Engineering Mechanics 111 (1985) 1010.
 [3] G. C. Foliente, J. Structural Engineering 121 (1995) 1013.
 
-An increment is cut into equal steps; each is an exponential midpoint step of dg/dw = a - b g with a and b of the
-step's middle: second order, and bounded however coarse the increments are.
+An increment is cut into steps by how fast g changes, so that a saturated one is passed at once; each is an exponential
+midpoint step of dg/dw = a - b g with a and b of the step's middle: second order, and bounded however coarse the
+increments are. What degrades keeps the value of the increment's middle, as far as E can be told there beforehand.
 """
 
 from __future__ import annotations
@@ -26,9 +27,12 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 
-FINE = 0.05
-"""Longest step, in yield displacements."""
-MOST_STEPS = 64
+FINE = 0.025
+"""Longest change of g in a step, and on the way back to g = 0 longest step in yield displacements. On 12 growing cycles
+of 2500 samples, parameters anywhere in their box, z is off by 6e-5 (median of the RMS; 8e-3 at worst) after 1.5 steps
+an increment; with half of it 5e-5 and 2.0, with twice 8e-5 (2e-2) and 1.2; equal steps of 0.05 yield displacements took
+9.9 for 3e-4 (2e-2)."""
+MOST_STEPS = 128
 """Steps of one increment."""
 LEAST = 0.02
 """Strength and stiffness are not degraded, or raised, beyond this factor, nor is the loop pinched below this share."""
@@ -69,20 +73,26 @@ def strained(z: float, energy: float, step: float, p: Array) -> tuple[float, flo
     if step == 0.0:
         return z, energy
     s = math.copysign(1.0, step)
-    width = abs(step)
-    steps = min(int(width / (FINE * p[YIELD])) + 1, MOST_STEPS)
-    width /= steps
+    left = abs(step)
     g = s * z
-    for _ in range(steps):
-        nu = min(max(1.0 + p[STRENGTH] * energy, LEAST), 1.0 / LEAST)
-        eta = min(max(1.0 + p[STIFFNESS] * energy, LEAST), 1.0 / LEAST)
-        bound = (nu * (1.0 + 2.0 * p[PHI] * s)) ** (-1.0 / p[POWER])
-        pinching = p[PINCHING] * -math.expm1(-p[GROWTH] * energy)
+    ahead = min(g + 0.5 * left / p[YIELD], 1.0)
+    between = max(energy + 0.25 * (g + ahead) * left, 0.0)
+    nu = min(max(1.0 + p[STRENGTH] * between, LEAST), 1.0 / LEAST)
+    eta = min(max(1.0 + p[STIFFNESS] * between, LEAST), 1.0 / LEAST)
+    bound = (nu * (1.0 + 2.0 * p[PHI] * s)) ** (-1.0 / p[POWER])
+    pinching = p[PINCHING] * -math.expm1(-p[GROWTH] * between)
+    stiff = 1.0 / (eta * p[YIELD])
+    for k in range(MOST_STEPS):
         a, b = _coefficients(g, abs(g), s, nu, eta, pinching, bound, p)
+        steepest = max(abs(a - b * g), stiff if g < 0.0 else 0.0)
+        width = left if k == MOST_STEPS - 1 or steepest * left <= FINE else FINE / steepest
         edge = max(bound, g)
         middle = min(_relaxed(g, a, b, 0.5 * width), edge)
         a, b = _coefficients(middle, max(abs(g), abs(middle)), s, nu, eta, pinching, bound, p)
         new = min(_relaxed(g, a, b, width), edge)
         energy = max(energy + 0.5 * (g + new) * width, 0.0)
         g = new
+        left -= width
+        if left <= 0.0:
+            break
     return s * g, energy
