@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.arrays import Array, distinct_columns
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
@@ -140,9 +140,11 @@ class System:
     def _once(self, depth: int, signal: Signal, full: Array) -> Array:
         """The same, columns that differ only further out simulated once: most of the forward differences, and of the
         starts, of an effect on the output."""
-        if signal.input.shape[1] > 1:
+        from hysteresis_bench.kernels.distinct_columns import distinct_columns
+
+        if signal.input.shape[1] > 1 or full.shape[1] == 1:
             return self._wrapped(depth, signal, full)
-        first, place = distinct_columns(full[self._rows_within[depth]])
+        first, place = distinct_columns(full, self._rows_within[depth])
         if first.size > MOSTLY * place.size:
             return self._wrapped(depth, signal, full)
         return self._wrapped(depth, signal, np.ascontiguousarray(full[:, first])).take(place, axis=1)

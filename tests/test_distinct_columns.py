@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import compose, registry
-from hysteresis_bench.arrays import distinct_columns
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import jacobian
+from hysteresis_bench.kernels.distinct_columns import distinct_columns
 from hysteresis_bench.signals import Record
 
 TIME = np.linspace(0.0, 4.0, 240)
@@ -17,12 +17,15 @@ RECORD = Record(TIME, DRIVE, DRIVE + 0.2 * np.sign(np.cos(2.0 * np.pi * TIME)))
 @pytest.mark.parametrize("swarm", [1, 2, 7, 64])
 def test_distinct_columns_make_up_all_of_them(swarm):
     columns = np.random.default_rng(swarm).integers(0, 3, (2, swarm)).astype(float)
-    first, place = distinct_columns(columns)
+    rows = np.arange(2)
+    first, place = distinct_columns(columns, rows)
     assert np.array_equal(columns[:, first][:, place], columns)
     repeated = np.repeat(columns, 2, axis=1)
-    first, place = distinct_columns(repeated)
+    first, place = distinct_columns(repeated, rows)
     assert first.size == np.unique(columns, axis=1).shape[1]
     assert np.array_equal(repeated[:, first][:, place], repeated)
+    first, place = distinct_columns(repeated, rows[:1])
+    assert np.array_equal(repeated[:1, first][:, place], repeated[:1])
 
 
 @pytest.mark.parametrize("law", ["jiles-atherton", "lugre", "prandtl-ishlinskii"])

@@ -35,15 +35,17 @@ class RecordOffset(Effect):
         return inner(signal)
 
     def adjust(self, simulated: Array, record: Record, p: Any = None) -> Array:
-        return simulated + self.offset(simulated, record, None)
+        from hysteresis_bench.kernels.effects.offset import raised
+
+        return raised(simulated, self.offset(simulated, record, None))
 
     def offset(self, simulated: Array, record: Record, p: Any) -> Array:
+        from hysteresis_bench.kernels.effects.offset import missing
+
         if record.output is None:
             return np.full(simulated.shape[1], self.default)
-        measured, scored = record.measured, simulated[record.scored]
-        # np.mean to the last bit, in half its time: short records are adjusted thousands of times
-        missing: Array = measured.sum() / measured.size - scored.sum(axis=0) / measured.size
-        return missing
+        measured = record.measured
+        return missing(simulated, record.history, float(measured.sum() / measured.size))
 
     def remembered(self, offsets: Sequence[float]) -> RecordOffset:
         return replace(self, default=float(np.median(offsets)))
