@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.kernels import metal_plasticity as kernels
+from hysteresis_bench.kernels.metal_plasticity_step import flowed
 from tests.conftest import as_models_call
 
 metal_plasticity = as_models_call(kernels.metal_plasticity, 0)
@@ -65,3 +66,43 @@ def test_a_swarm_is_its_particles_and_stays_bounded():
     own = np.repeat(PATH[:, None], 40, axis=1)
     assert np.array_equal(metal_plasticity(own, p), found)
     assert np.array_equal(metal_plasticity(PATH[:, None], np.ascontiguousarray(p[:, 7:8]))[:, 0], found[:, 7])
+
+
+def metals(swarm):
+    """Any parameters of a box around strains of 1, corners among them."""
+    rng = np.random.default_rng(1)
+    share = rng.random((9, swarm))
+    share = np.where(rng.random((9, swarm)) < 0.4, np.round(share), share)
+    low = np.array([1e-3, -0.5, 1e-2, 0.0, 1e-2, 0.0, 0.03, 0.0, 0.03])[:, None]
+    high = np.array([1.0, 3.0, 1e3, 0.45, 1e3, 3.0, 1e4, 3.0, 1e4])[:, None]
+    p = np.where(low > 0.0, np.abs(low) ** (1.0 - share) * high**share, low + share * (high - low))
+    p[[1, 3, 5, 7]] *= p[0]
+    return p
+
+
+@pytest.mark.parametrize("swarm", [1, 8, 19, 100])
+@pytest.mark.parametrize("parts", [0.05, 1.0, 30.0], ids=["coarse", "as is", "fine"])
+def test_particles_side_by_side_make_the_step_of_one(swarm, parts):
+    ends = PATH.size - 1
+    u = np.interp(np.linspace(0.0, ends, round(parts * ends) + 1), np.arange(PATH.size), PATH)
+    p = metals(swarm)
+    found = metal_plasticity(u[:, None], p)
+    for j in range(swarm):
+        state, alone, one = np.zeros(4), [0.0], p[:, j].copy()
+        for step in np.diff(u):
+            alone.append(flowed(state, step, one))
+        largest = np.max(np.abs(alone))
+        np.testing.assert_allclose(found[:, j], alone, rtol=0.0, atol=1e-10 * max(largest, 0.1))
+    part = slice(swarm // 3, swarm // 3 + 9)
+    own = np.repeat(u[:, None], swarm, axis=1)
+    few = np.ascontiguousarray(p[:, part])
+    assert np.array_equal(metal_plasticity(u[:, None], few), found[:, part])
+    assert np.array_equal(metal_plasticity(np.ascontiguousarray(own[:, part]), few), found[:, part])
+
+
+def test_own_strains_are_told_apart():
+    p = metals(19)
+    own = PATH[:, None] * np.linspace(0.1, 2.0, 19)
+    found = metal_plasticity(own, p)
+    for j in (0, 7, 18):
+        assert np.array_equal(metal_plasticity(own[:, j : j + 1], p[:, j : j + 1].copy())[:, 0], found[:, j])

@@ -10,7 +10,7 @@ from typing import Any
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_bench.kernels.metal_plasticity import flowed
+from hysteresis_bench.kernels.metal_plasticity_step import flowed
 
 
 def law(s: Array, p: Array, t: float, u: float) -> float:
