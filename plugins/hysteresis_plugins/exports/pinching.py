@@ -10,7 +10,7 @@ from typing import Any
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_bench.kernels.pinching import pinched
+from hysteresis_bench.kernels.pinching_step import pinched
 
 
 def law(s: Array, p: Array, t: float, u: float) -> float:
