@@ -16,18 +16,32 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.elementary import exponential, exponential_less_1, logarithm
+from hysteresis_bench.kernels.reversals import (
+    EXTREME,
+    LANES,
+    LAW,
+    NEW,
+    OTHER,
+    OWN,
+    SENSE,
+    TOWARD,
+    YIELD,
+    X,
+    begun,
+    given,
+    reaching,
+    swapped,
+    turned_round,
+    turning,
+)
 
-LANES = 16
-"""Particles side by side; a swarm is padded to a multiple with copies of its last particle. With 8 a processor waits
-for results of its own: 7.6 ns a particle and sample for 5.4."""
-
-# Rows of a group: the parameters, the increment and the state, then of the way and of the way back the value at x, X on
-# its side, the envelope at beta X, h, and what else is constant in them.
-YIELD, HARDENING, PINCHED, GROWTH, SLOPE, BEYOND, LENGTH, CORNER = (row * LANES for row in range(8))
-INPUT, NEW, TOWARD, X, SENSE, F, RATE, EXTREME = (row * LANES for row in range(8, 16))
-WAY, OWN, OWN_TOP, H, LOW, SHIFT, ROUND = (row * LANES for row in range(16, 23))
-BACK, OTHER, OTHER_TOP, BACK_H, BACK_LOW, BACK_SHIFT, BACK_ROUND = (row * LANES for row in range(23, 30))
-ROWS = 30
+# Rows of a group after those of reversals: the parameters but u_y, the state, then of the way and of the way back the
+# value at x, the envelope at beta X, h, and what else is constant in them.
+HARDENING, PINCHED, GROWTH, SLOPE, BEYOND, LENGTH, CORNER = (row * LANES for row in range(LAW, LAW + 7))
+F, RATE = (row * LANES for row in range(LAW + 7, LAW + 9))
+WAY, TOP, H, LOW, SHIFT, ROUND = (row * LANES for row in range(LAW + 9, LAW + 15))
+BACK, BACK_TOP, BACK_H, BACK_LOW, BACK_SHIFT, BACK_ROUND = (row * LANES for row in range(LAW + 15, LAW + 21))
+ROWS = LAW + 21
 
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
@@ -52,34 +66,6 @@ def _way(x, end, slope, low, shift, size):  # type: ignore[no-untyped-def]
     return low + slope * x + 0.5 * (back + np.sqrt(back * back + size))
 
 
-@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
-def _begun(s):  # type: ignore[no-untyped-def]
-    """Where x goes, and in which direction."""
-    for j in range(min(LANES, s.size)):
-        new = s[INPUT + j] / s[YIELD + j]
-        step = new - s[X + j]
-        side = -1.0 if step < 0.0 else s[SENSE + j]
-        s[NEW + j], s[TOWARD + j] = new, 1.0 if step > 0.0 else side
-
-
-@njit(forceinline=True, error_model="numpy")
-def _turning(s):  # type: ignore[no-untyped-def]
-    """How many lanes turn round."""
-    turning = 0
-    for j in range(min(LANES, s.size)):
-        turning += 1 if s[TOWARD + j] != s[SENSE + j] else 0
-    return turning
-
-
-@njit(forceinline=True, error_model="numpy")
-def _worn_by(s):  # type: ignore[no-untyped-def]
-    """How many lanes turned further out than ever before."""
-    worn = 0
-    for j in range(min(LANES, s.size)):
-        worn += 1 if s[EXTREME + j] > 0.0 else 0
-    return worn
-
-
 @njit(forceinline=True, error_model="numpy")
 def _beyond(s):  # type: ignore[no-untyped-def]
     """How many lanes go further than they were turned on any side."""
@@ -89,34 +75,25 @@ def _beyond(s):  # type: ignore[no-untyped-def]
     return beyond
 
 
-@njit(forceinline=True, error_model="numpy")
-def _swapped(s, j, row, other, turned, sign):  # type: ignore[no-untyped-def]
-    first, second = s[row + j], s[other + j]
-    s[row + j], s[other + j] = sign * second if turned else first, sign * first if turned else second
-
-
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _turned(s):  # type: ignore[no-untyped-def]
     """The way becomes the way back of the lanes that turn round."""
     for j in range(min(LANES, s.size)):
         turned = s[TOWARD + j] != s[SENSE + j]
-        _swapped(s, j, WAY, BACK, turned, -1.0)
-        _swapped(s, j, OWN, OTHER, turned, 1.0)
-        _swapped(s, j, OWN_TOP, OTHER_TOP, turned, 1.0)
-        _swapped(s, j, H, BACK_H, turned, 1.0)
-        _swapped(s, j, LOW, BACK_LOW, turned, 1.0)
-        _swapped(s, j, SHIFT, BACK_SHIFT, turned, 1.0)
-        _swapped(s, j, ROUND, BACK_ROUND, turned, 1.0)
-        extreme = -s[TOWARD + j] * s[X + j]
-        s[EXTREME + j] = extreme if turned & (extreme > s[OTHER + j]) else 0.0
-        s[SENSE + j] = s[TOWARD + j]
+        swapped(s, j, WAY, BACK, turned, -1.0)
+        swapped(s, j, TOP, BACK_TOP, turned, 1.0)
+        swapped(s, j, H, BACK_H, turned, 1.0)
+        swapped(s, j, LOW, BACK_LOW, turned, 1.0)
+        swapped(s, j, SHIFT, BACK_SHIFT, turned, 1.0)
+        swapped(s, j, ROUND, BACK_ROUND, turned, 1.0)
+        turned_round(s, j, turned)
 
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _worn(s):  # type: ignore[no-untyped-def]
     """Both ways anew where a reversal went further."""
     for j in range(min(LANES, s.size)):
-        extreme, own, top, beyond = s[EXTREME + j], s[OWN + j], s[OWN_TOP + j], s[BEYOND + j]
+        extreme, own, top, beyond = s[EXTREME + j], s[OWN + j], s[TOP + j], s[BEYOND + j]
         worn = extreme > 0.0
         both = max(extreme, own)
         large = max(both, 1.0)
@@ -130,7 +107,7 @@ def _worn(s):  # type: ignore[no-untyped-def]
         on_envelope = extreme >= end  # where BACK is the envelope already
         back = s[BACK + j] if on_envelope else -_way(extreme, end, slope, back_low, back_shift, back_size)
         s[WAY + j], s[BACK + j] = way if worn else s[WAY + j], back if worn else s[BACK + j]
-        s[OTHER + j], s[OTHER_TOP + j] = extreme if worn else s[OTHER + j], top if worn else s[OTHER_TOP + j]
+        s[OTHER + j], s[BACK_TOP + j] = extreme if worn else s[OTHER + j], top if worn else s[BACK_TOP + j]
         s[H + j], s[BACK_H + j] = slope if worn else s[H + j], slope if worn else s[BACK_H + j]
         s[LOW + j], s[BACK_LOW + j] = low if worn else s[LOW + j], back_low if worn else s[BACK_LOW + j]
         s[SHIFT + j], s[BACK_SHIFT + j] = shift if worn else s[SHIFT + j], back_shift if worn else s[BACK_SHIFT + j]
@@ -147,7 +124,7 @@ def _wearing(s):  # type: ignore[no-untyped-def]
         large = max(x, 1.0)
         slope, grown = s[SLOPE + j] / (1.0 + beyond * max(x, 0.0)), exponential(s[GROWTH + j] * logarithm(large))
         end = beyond * s[OTHER + j]
-        low, shift, size = _constants(end, s[OTHER_TOP + j], slope, s[PINCHED + j] * grown, s[CORNER + j] * grown)
+        low, shift, size = _constants(end, s[BACK_TOP + j], slope, s[PINCHED + j] * grown, s[CORNER + j] * grown)
         s[BACK_H + j], s[BACK_LOW + j] = slope if further else s[BACK_H + j], low if further else s[BACK_LOW + j]
         s[BACK_SHIFT + j] = shift if further else s[BACK_SHIFT + j]
         s[BACK_ROUND + j] = size if further else s[BACK_ROUND + j]
@@ -176,10 +153,10 @@ def _advanced(s):  # type: ignore[no-untyped-def]
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
 def pinched_together(s: Array) -> None:
     """The state of a group after its inputs, counted from the first one, have gone to s[INPUT:]."""
-    _begun(s)
-    if _turning(s) > 0:
+    begun(s)
+    if turning(s) > 0:
         _turned(s)
-        if _worn_by(s) > 0:
+        if reaching(s) > 0:
             _worn(s)
     if _beyond(s) > 0:
         _wearing(s)
@@ -191,8 +168,10 @@ def _grouped(parameters: Array, first: int, used: int) -> Array:
     """A group at rest, the `first` particle to the `used` that follow and copies of the last."""
     s = np.zeros(ROWS * LANES)
     for j in range(LANES):
-        for row in range(8):
-            s[row * LANES + j] = parameters[row, first + min(j, used - 1)]
+        p = parameters[:, first + min(j, used - 1)]
+        s[YIELD + j] = p[0]
+        for row in range(1, 8):
+            s[HARDENING + (row - 1) * LANES + j] = p[row]
         s[H + j] = s[BACK_H + j] = s[SLOPE + j]
         s[RATE + j] = 1.0 / s[LENGTH + j]
     return s
@@ -207,16 +186,14 @@ def pinching(u: Array, parameters: Array) -> Array:
                                       corner >= 0
     -> float64[samples, swarm]        0 at the first sample, from which the displacement counts
     """
-    samples, columns = u.shape
+    samples = u.shape[0]
     swarm = parameters.shape[1]
     out = np.zeros((samples, swarm))
     for first in range(0, swarm, LANES):
         used = min(LANES, swarm - first)
         s = _grouped(parameters, first, used)
         for i in range(1, samples):
-            for j in range(LANES):
-                column = first + min(j, used - 1) if columns > 1 else 0
-                s[INPUT + j] = u[i, column] - u[0, column]
+            given(s, u, i, first, used)
             pinched_together(s)
             for j in range(used):
                 out[i, first + j] = s[F + j]

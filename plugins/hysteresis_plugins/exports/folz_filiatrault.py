@@ -10,7 +10,7 @@ from typing import Any
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_bench.kernels.timber import followed
+from hysteresis_bench.kernels.timber_step import followed
 
 
 def law(s: Array, p: Array, t: float, u: float) -> float:
