@@ -34,11 +34,19 @@ def mean(s: Array, p: Array, h: float) -> tuple[float, float]:
 
 def law(s: Array, p: Array, t: float, u: float) -> float:
     cells: int = int(p[0])
+    low = -1.0
+    high = 1.0
     for _ in range(MOST_STEPS):
-        found, slope = mean(s, p, u + p[2] * s[1])
-        change = (found - s[1]) / (1.0 - min(p[2] * slope, STEEPEST))
-        s[1] = min(max(s[1] + change, -1.0), 1.0)
-        if abs(change) <= CLOSE:
+        m = s[1]
+        found, slope = mean(s, p, u + p[2] * m)
+        if found >= m:
+            low = m
+        if found <= m:
+            high = m
+        s[1] = m + (found - m) / (1.0 - min(p[2] * slope, STEEPEST))
+        if s[1] < low or s[1] > high:
+            s[1] = 0.5 * (low + high)
+        if abs(s[1] - m) <= CLOSE:
             break
     h = u + p[2] * s[1]
     for k in range(cells):
