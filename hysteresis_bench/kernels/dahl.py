@@ -7,6 +7,12 @@ of [1], dF/dx = sigma |1 - s F / F_C|^i, is dQ/dw = -Q^i / distance with distanc
 
 On its way from one sign to the other the force stays 0 while the clearance is crossed.
 
+`slipped` is that for one particle. A swarm goes by the way x, in distances, that lies behind the force 0, negative
+before it, and by the room that is to be crossed there: both change the force's sign with the direction, and between
+two reversals an increment only adds to x. The force is
+
+    1 - Q,    Q^(1-i) = 1 - (1 - i) t,  or ln Q = -t for i = 1,    t = x below 0, 0 in the room, x - room beyond.
+
 [1] P. R. Dahl, A solid friction model, Aerospace Corporation, TOR-158(3107-18) (1968).
 """
 
@@ -18,9 +24,20 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.elementary import TO_BASE_2, base_2_logarithm, power_of_2
 
 EVEN = 1e-6
 """Distance of the exponent from 1 within which it counts as 1."""
+LEAST = 1e-300
+"""Least power of Q: below it the force is Coulomb's to the last bit."""
+LANES = 8
+"""Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
+
+# Rows of a group: 1 over the distance, 1 - i and 1 over it, both 0 for i = 1, where there is then log_2 e, the
+# clearance in distances; the state; the input.
+INVERSE, POWER, ROOT, EVENLY, CLEARANCE = (row * LANES for row in range(5))
+DIRECTION, X, ROOM, Z, NOW, NEXT = (row * LANES for row in range(5, 11))
+ROWS = 11
 
 
 @njit(cache=True, error_model="numpy")
@@ -69,6 +86,51 @@ def slipped(z: float, place: float, step: float, distance: float, exponent: floa
     return s * (1.0 - _left(1.0 - g, width / distance, exponent)), s * gap
 
 
+@njit(forceinline=True, error_model="numpy")
+def _turning(s):  # type: ignore[no-untyped-def]
+    """How many lanes turn."""
+    turning = 0
+    for j in range(min(LANES, s.size & -LANES)):
+        turning += 1 if (s[NEXT + j] - s[NOW + j]) * s[DIRECTION + j] < 0.0 else 0
+    return turning
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _turned(s):  # type: ignore[no-untyped-def]
+    """x and the room of lanes that turn, seen in the other direction."""
+    for j in range(min(LANES, s.size & -LANES)):
+        direction, x, room, clearance = s[DIRECTION + j], s[X + j], s[ROOM + j], s[CLEARANCE + j]
+        turns = (s[NEXT + j] - s[NOW + j]) * direction < 0.0
+        logarithm = base_2_logarithm(max(1.0 + direction * s[Z + j], LEAST))
+        evenly = 1.0 / TO_BASE_2 if s[POWER + j] == 0.0 else 0.0
+        way = (1.0 - power_of_2(s[POWER + j] * logarithm)) * s[ROOT + j] - logarithm * evenly
+        slack = (x >= 0.0) & (x <= room)
+        other_x = 0.0 if slack else way
+        other_room = clearance - room if slack else (0.0 if x < 0.0 else clearance)
+        s[X + j] = other_x if turns else x
+        s[ROOM + j] = other_room + (x if slack else 0.0) if turns else room
+        s[DIRECTION + j] = -direction if turns else direction
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _gone_on(s):  # type: ignore[no-untyped-def]
+    """x, the force and the input of every lane after the increment."""
+    for j in range(min(LANES, s.size & -LANES)):
+        x = s[X + j] + abs(s[NEXT + j] - s[NOW + j]) * s[INVERSE + j]
+        t = min(x, max(x - s[ROOM + j], 0.0))
+        logarithm = base_2_logarithm(max(1.0 - s[POWER + j] * t, LEAST))  # of Q^(1-i)
+        Q = power_of_2(logarithm * s[ROOT + j] - t * s[EVENLY + j])
+        s[X + j], s[Z + j], s[NOW + j] = x, s[DIRECTION + j] * (1.0 - Q), s[NEXT + j]
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def slipped_together(s: Array) -> None:
+    """The force of a group after its input has come to s[NEXT:]."""
+    if _turning(s) > 0:
+        _turned(s)
+    _gone_on(s)
+
+
 @njit(cache=True, error_model="numpy")
 def dahl(u: Array, distance: Array, exponent: Array, gap: Array) -> Array:
     """Dahl's friction as a share of Coulomb's.
@@ -82,13 +144,22 @@ def dahl(u: Array, distance: Array, exponent: Array, gap: Array) -> Array:
     samples, columns = u.shape
     swarm = distance.size
     out = np.empty((samples, swarm))
-    for j in range(swarm):
-        column = j if columns > 1 else 0
-        z = 0.0
-        place = 0.0
-        out[0, j] = 0.0
-        for i in range(1, samples):
-            step = u[i, column] - u[i - 1, column]
-            z, place = slipped(z, place, step, distance[j], exponent[j], gap[j])
-            out[i, j] = z
+    for first in range(0, swarm, LANES):
+        used = min(LANES, swarm - first)
+        s = np.zeros(ROWS * LANES)
+        for j in range(LANES):
+            one = first + min(j, used - 1)
+            power = 1.0 - exponent[one]
+            even = abs(power) < EVEN
+            s[INVERSE + j], s[CLEARANCE + j] = 1.0 / distance[one], 2.0 * gap[one] / distance[one]
+            s[POWER + j], s[ROOT + j] = 0.0 if even else power, 0.0 if even else 1.0 / power
+            s[EVENLY + j] = TO_BASE_2 if even else 0.0
+            s[DIRECTION + j], s[ROOM + j] = 1.0, gap[one] / distance[one]
+            s[NOW + j] = u[0, one if columns > 1 else 0]
+        for i in range(samples):
+            for j in range(LANES):
+                s[NEXT + j] = u[i, first + min(j, used - 1) if columns > 1 else 0]
+            slipped_together(s)
+            for j in range(used):
+                out[i, first + j] = s[Z + j]
     return out

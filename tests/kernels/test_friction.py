@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from hysteresis_bench.kernels.dahl import dahl
+from hysteresis_bench.kernels.dahl import dahl, slipped
 from hysteresis_bench.kernels.lugre import lugre
 from hysteresis_bench.kernels.stop_bank import stop_bank
 
@@ -69,6 +69,39 @@ def test_dahl_crosses_its_clearance_without_force():
     assert back.max() - back.min() == pytest.approx(1.2, abs=0.03)
     assert z.max() == 1.0
     assert z.min() == -1.0
+
+
+def swarm_of_dahl(rng, swarm):
+    """distance, i and gap at the edges of a box and inside it."""
+    distance = 2e-3 * 1e3 ** rng.choice([0.0, 0.5, 1.0], swarm)
+    exponent = rng.choice([0.0, 0.1, 0.7, 1.0, 1.0 + 1e-3, 1.6, 3.0], swarm)
+    return distance, exponent, rng.choice([0.0, 0.05, 0.5], swarm)
+
+
+@pytest.mark.parametrize("swarm", [1, 8, 19])
+@pytest.mark.parametrize("stretch", [0.01, 0.3, 3.0])
+def test_dahls_particles_side_by_side_make_the_step_of_one(swarm, stretch):
+    rng = np.random.default_rng(swarm)
+    p = swarm_of_dahl(rng, swarm)
+    fine, _ = refined(stretch * PATH, 7)
+    own = stretch * PATH[:, None] * rng.uniform(0.5, 1.5, swarm)
+    for u in (stretch * PATH[:, None], fine[:, None], own, np.round(own, 1)):
+        found = dahl(u, *p)
+        for j in range(swarm):
+            z, place, alone = 0.0, 0.0, [0.0]
+            for step in np.diff(u[:, j if u.shape[1] > 1 else 0]).tolist():
+                z, place = slipped(z, place, step, *(float(row[j]) for row in p))
+                alone.append(z)
+            # for one particle, 1 - i of 1e-3 makes a thousand roundings of every one
+            np.testing.assert_allclose(found[:, j], alone, rtol=0.0, atol=1e-11 if abs(p[1][j] - 1.0) < 0.1 else 1e-12)
+
+
+def test_a_particle_of_dahls_does_not_know_of_the_others():
+    rng = np.random.default_rng(4)
+    p = swarm_of_dahl(rng, 19)
+    u = PATH[:, None] * rng.uniform(0.5, 1.5, 19)
+    some = dahl(np.ascontiguousarray(u[:, 5:11]), *(row[5:11] for row in p))
+    assert np.array_equal(some, dahl(u, *p)[:, 5:11])
 
 
 def test_lugre_is_its_equation():
