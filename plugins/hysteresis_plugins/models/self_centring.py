@@ -69,12 +69,10 @@ class SelfCentring(Model):
 
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.dahl import dahl
+        from hysteresis_bench.kernels.self_centring import self_centring
 
         force = dahl(signal.input, p.u_y, p.i, np.zeros_like(p.u_y))
-        force *= p.F_y
-        way = signal.input - p.centre
-        force += p.up * np.maximum(way, 0.0) + p.down * np.minimum(way, 0.0)
-        force += p.F_r * _bent(way / p.u_r, p.m)
+        self_centring(signal.input, force, np.stack([p.centre, p.u_r, p.m, p.up, p.down, p.F_r, p.F_y]))
         return force
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
@@ -98,10 +96,3 @@ class SelfCentring(Model):
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         return offset(records)
-
-
-def _bent(x: Array, m: Array) -> Array:
-    """x / (1 + |x|^m)^(1/m), (samples, swarm), from what of it is below 1 so that no power overflows."""
-    size = np.abs(x)
-    small, large = np.minimum(size, 1.0), np.maximum(size, 1.0)
-    return np.asarray(np.sign(x) * small / (1.0 + (small / large) ** m) ** (1.0 / m))

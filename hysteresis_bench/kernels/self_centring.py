@@ -1,0 +1,71 @@
+"""The force of a swarm that comes back to its centre: an elastic curve that bends once on either side, and what yields.
+
+With w = u - centre, x = w / bend and z the force of what yields over its strength,
+
+    F = up max(w, 0) + down min(w, 0) + corner x / (1 + |x|^m)^(1/m) + strength z,    the corner rounded as in [1].
+
+[1] M. Menegotto, P. E. Pinto, IABSE Reports 13 (1973) 15.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.elementary import base_2_logarithm, base_2_logarithm_to_2, power_of_2
+
+LEAST = 1e-300
+"""Least of what is raised to m."""
+LANES = 8
+"""Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
+
+# Rows of a group: the parameters as in `self_centring`, 1 over bend and over m; then u, z and F.
+CENTRE, BEND, SHARPNESS, UP, DOWN, CORNER, STRENGTH, STEEPNESS, ROOT = (row * LANES for row in range(9))
+NOW, Z, FORCE = (row * LANES for row in range(9, 12))
+ROWS = 12
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _bent(x, m, root):  # type: ignore[no-untyped-def]
+    """x / (1 + |x|^m)^(1/m), from |x|^m or its inverse so that no power overflows."""
+    size = abs(x)
+    power = power_of_2(-m * abs(base_2_logarithm(max(size, LEAST))))
+    bent = min(size, 1.0) * power_of_2(-root * base_2_logarithm_to_2(1.0 + power))
+    return bent if x >= 0.0 else -bent
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def forced_together(s: Array) -> None:
+    """F of a group."""
+    for j in range(min(LANES, s.size & -LANES)):
+        way, up, down = s[NOW + j] - s[CENTRE + j], s[UP + j], s[DOWN + j]
+        elastic = way * (up if way >= 0.0 else down)
+        bent = _bent(way * s[STEEPNESS + j], s[SHARPNESS + j], s[ROOT + j])
+        s[FORCE + j] = s[STRENGTH + j] * s[Z + j] + elastic + s[CORNER + j] * bent
+
+
+@njit(cache=True, error_model="numpy")
+def self_centring(u: Array, z: Array, parameters: Array) -> None:
+    """The force F.
+
+    u : float64[samples, 1] or float64[samples, swarm]    displacement, any unit
+    z : float64[samples, swarm]                           overwritten with F
+    parameters : float64[7, swarm]    centre, unit of u; bend > 0, unit of u; m > 0; up and down, unit of F over that
+        of u; corner and strength, unit of F
+    """
+    samples, swarm = z.shape
+    for first in range(0, swarm, LANES):
+        used = min(LANES, swarm - first)
+        s = np.zeros(ROWS * LANES)
+        for j in range(LANES):
+            for row in range(7):
+                s[row * LANES + j] = parameters[row, first + min(j, used - 1)]
+            s[STEEPNESS + j], s[ROOT + j] = 1.0 / s[BEND + j], 1.0 / s[SHARPNESS + j]
+        for i in range(samples):
+            for j in range(LANES):
+                one = first + min(j, used - 1)
+                s[NOW + j], s[Z + j] = u[i, one if u.shape[1] > 1 else 0], z[i, one]
+            forced_together(s)
+            for j in range(used):
+                z[i, first + j] = s[FORCE + j]
