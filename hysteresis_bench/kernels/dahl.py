@@ -24,14 +24,13 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.columns import LANES, given_out, taken_in
 from hysteresis_bench.kernels.elementary import TO_BASE_2, base_2_logarithm, power_of_2
 
 EVEN = 1e-6
 """Distance of the exponent from 1 within which it counts as 1."""
 LEAST = 1e-300
 """Least power of Q: below it the force is Coulomb's to the last bit."""
-LANES = 8
-"""Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
 
 # Rows of a group: 1 over the distance, 1 - i and 1 over it, both 0 for i = 1, where there is then log_2 e, the
 # clearance in distances; the state; the input.
@@ -141,8 +140,7 @@ def dahl(u: Array, distance: Array, exponent: Array, gap: Array) -> Array:
     gap : float64[swarm]          half the clearance, unit of u, >= 0
     -> float64[samples, swarm]    -1 to 1, 0 at the first sample, in the middle of the clearance
     """
-    samples, columns = u.shape
-    swarm = distance.size
+    samples, swarm = u.shape[0], distance.size
     out = np.empty((samples, swarm))
     for first in range(0, swarm, LANES):
         used = min(LANES, swarm - first)
@@ -155,11 +153,9 @@ def dahl(u: Array, distance: Array, exponent: Array, gap: Array) -> Array:
             s[POWER + j], s[ROOT + j] = 0.0 if even else power, 0.0 if even else 1.0 / power
             s[EVENLY + j] = TO_BASE_2 if even else 0.0
             s[DIRECTION + j], s[ROOM + j] = 1.0, gap[one] / distance[one]
-            s[NOW + j] = u[0, one if columns > 1 else 0]
+        taken_in(s, NOW, u, 0, first, used)
         for i in range(samples):
-            for j in range(LANES):
-                s[NEXT + j] = u[i, first + min(j, used - 1) if columns > 1 else 0]
+            taken_in(s, NEXT, u, i, first, used)
             slipped_together(s)
-            for j in range(used):
-                out[i, first + j] = s[Z + j]
+            given_out(s, Z, out, i, first, used)
     return out

@@ -13,12 +13,11 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.columns import LANES, given_out, taken_in
 from hysteresis_bench.kernels.elementary import base_2_logarithm, base_2_logarithm_to_2, power_of_2
 
 LEAST = 1e-300
 """Least of what is raised to m."""
-LANES = 8
-"""Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
 
 # Rows of a group: the parameters as in `self_centring`, 1 over bend and over m; then u, z and F.
 CENTRE, BEND, SHARPNESS, UP, DOWN, CORNER, STRENGTH, STEEPNESS, ROOT = (row * LANES for row in range(9))
@@ -63,9 +62,7 @@ def self_centring(u: Array, z: Array, parameters: Array) -> None:
                 s[row * LANES + j] = parameters[row, first + min(j, used - 1)]
             s[STEEPNESS + j], s[ROOT + j] = 1.0 / s[BEND + j], 1.0 / s[SHARPNESS + j]
         for i in range(samples):
-            for j in range(LANES):
-                one = first + min(j, used - 1)
-                s[NOW + j], s[Z + j] = u[i, one if u.shape[1] > 1 else 0], z[i, one]
+            taken_in(s, NOW, u, i, first, used)
+            taken_in(s, Z, z, i, first, used)
             forced_together(s)
-            for j in range(used):
-                z[i, first + j] = s[FORCE + j]
+            given_out(s, FORCE, z, i, first, used)
