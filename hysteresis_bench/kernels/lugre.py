@@ -6,7 +6,8 @@ With z the bristles' force over Coulomb's, distance = F_C / sigma_0 and r(v) = 1
 
     distance dz/dt = v - |v| z / r(v)
 
-is linear where v is constant: z goes to s r as exp(-|du| / (r distance)).
+is linear where v is constant: z goes to s r as exp(-|du| / (r distance)). LANES particles do so side by side; `_excess`
+is r for one.
 """
 
 from __future__ import annotations
@@ -17,13 +18,50 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.columns import LANES, given_out, taken_in
+from hysteresis_bench.kernels.elementary import exponential
+
+LONGEST = 700.0
+"""Negative exponent at which an exponential counts as gone."""
+
+# Rows of a group: the parameters; the state; u a sample ago, now, a sample on; what is told.
+DISTANCE, STICTION, INVERSE_SLOWEST = (row * LANES for row in range(3))
+Z, PAST, NOW, NEXT, BENDING, V = (row * LANES for row in range(3, 9))
+ROWS = 9
 
 
 @njit(forceinline=True, error_model="numpy")
 def _excess(stiction, velocity, slowest):  # type: ignore[no-untyped-def]
     """r(v)."""
     share = velocity / slowest
-    return 1.0 + (stiction - 1.0) * math.exp(-min(share * share, 700.0))
+    return 1.0 + (stiction - 1.0) * math.exp(-min(share * share, LONGEST))
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _gone_on(s, rate):  # type: ignore[no-untyped-def]
+    """z after the increment, u one sample on;  rate : 1 over the time between."""
+    for j in range(min(LANES, s.size & -LANES)):
+        step = s[NOW + j] - s[PAST + j]
+        share = step * rate * s[INVERSE_SLOWEST + j]
+        r = 1.0 + (s[STICTION + j] - 1.0) * exponential(-min(share * share, LONGEST))
+        end = r if step >= 0.0 else -r
+        s[Z + j] = end + (s[Z + j] - end) * exponential(-abs(step) / (r * s[DISTANCE + j]))
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _bent(s, rate):  # type: ignore[no-untyped-def]
+    """v and distance dz/dt;  rate : 1 over the time from the sample before to the one after."""
+    for j in range(min(LANES, s.size & -LANES)):
+        v = (s[NEXT + j] - s[PAST + j]) * rate
+        share = v * s[INVERSE_SLOWEST + j]
+        r = 1.0 + (s[STICTION + j] - 1.0) * exponential(-min(share * share, LONGEST))
+        s[V + j], s[BENDING + j] = v, v - abs(v) * s[Z + j] / r
+
+
+@njit(forceinline=True, error_model="numpy")
+def _shifted(s):  # type: ignore[no-untyped-def]
+    for j in range(min(LANES, s.size & -LANES)):
+        s[PAST + j], s[NOW + j] = s[NOW + j], s[NEXT + j]
 
 
 @njit(cache=True, error_model="numpy")
@@ -40,23 +78,26 @@ def lugre(
     slowest : float64[swarm]       Stribeck velocity v_s, unit of u over that of time, > 0
     -> three float64[samples, swarm]: z, 0 at the first sample; distance dz/dt; v, by central differences at the samples
     """
-    samples, columns = u.shape
-    swarm = distance.size
-    z = np.zeros((samples, swarm))
-    bending = np.zeros((samples, swarm))
-    v = np.zeros((samples, swarm))
-    for j in range(swarm):
-        column = j if columns > 1 else 0
+    samples, swarm = u.shape[0], distance.size
+    z, bending, v = np.zeros((samples, swarm)), np.zeros((samples, swarm)), np.zeros((samples, swarm))
+    for first in range(0, swarm, LANES):
+        used = min(LANES, swarm - first)
+        s = np.zeros(ROWS * LANES)
+        for j in range(LANES):
+            one = first + min(j, used - 1)
+            s[DISTANCE + j], s[STICTION + j] = distance[one], stiction[one] if timed else 1.0
+            s[INVERSE_SLOWEST + j] = 1.0 / slowest[one]
+        taken_in(s, NEXT, u, 0, first, used)
+        _shifted(s)
         for i in range(samples):
+            before, after = max(i - 1, 0), min(i + 1, samples - 1)
+            _shifted(s)
+            taken_in(s, NEXT, u, after, first, used)
             if i > 0:
-                step = u[i, column] - u[i - 1, column]
-                r = _excess(stiction[j], step / (time[i] - time[i - 1]), slowest[j]) if timed else 1.0
-                end = math.copysign(r, step)
-                z[i, j] = end + (z[i - 1, j] - end) * math.exp(-abs(step) / (r * distance[j]))
+                _gone_on(s, 1.0 / (time[i] - time[before]))
+                given_out(s, Z, z, i, first, used)
             if timed and samples > 1:
-                first = max(i - 1, 0)
-                last = min(i + 1, samples - 1)
-                now = (u[last, column] - u[first, column]) / (time[last] - time[first])
-                v[i, j] = now
-                bending[i, j] = now - abs(now) * z[i, j] / _excess(stiction[j], now, slowest[j])
+                _bent(s, 1.0 / (time[after] - time[before]))
+                given_out(s, V, v, i, first, used)
+                given_out(s, BENDING, bending, i, first, used)
     return z, bending, v

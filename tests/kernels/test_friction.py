@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.kernels.dahl import dahl, slipped
-from hysteresis_bench.kernels.lugre import lugre
+from hysteresis_bench.kernels.lugre import _excess, lugre
 from hysteresis_bench.kernels.stop_bank import stop_bank
 
 PATH = np.cumsum(np.random.default_rng(8).normal(size=200))
@@ -126,3 +126,46 @@ def test_lugre_without_a_clock_is_dahl():
     np.testing.assert_allclose(found, dahl(PATH[:, None], np.array([0.5]), np.ones(1), np.zeros(1)), atol=1e-12)
     assert not np.any(bending)
     assert not np.any(v)
+
+
+def swarm_of_lugre(rng, swarm):
+    """distance, stiction and v_s at the edges of a box and inside it."""
+    distance, slowest = 2e-3 * 1e3 ** rng.choice([0.0, 0.5, 1.0], swarm), 1e-2 * 1e4 ** rng.choice([0.0, 0.5], swarm)
+    return distance, rng.choice([0.1, 1.0, 1.6, 3.0], swarm), slowest
+
+
+@pytest.mark.parametrize("swarm", [1, 8, 19])
+@pytest.mark.parametrize("timed", [True, False])
+@pytest.mark.parametrize("stretch", [0.01, 1.0])
+def test_lugres_particles_side_by_side_make_the_step_of_one(swarm, timed, stretch):
+    rng = np.random.default_rng(swarm)
+    p = swarm_of_lugre(rng, swarm)
+    time = np.cumsum(rng.uniform(0.1, 1.0, PATH.size))
+    own = stretch * PATH[:, None] * rng.uniform(0.5, 1.5, swarm)
+    for u in (stretch * PATH[:, None], own, np.round(own, 1)):
+        found, bending, v = lugre(time, timed, u, *p)
+        for j in range(swarm):
+            distance, stiction, slowest = (float(row[j]) for row in p)
+            column = u[:, j if u.shape[1] > 1 else 0]
+            z, alone = 0.0, [0.0]
+            for step, wait in zip(np.diff(column).tolist(), np.diff(time).tolist(), strict=True):
+                r = _excess.py_func(stiction, step / wait, slowest) if timed else 1.0
+                end = math.copysign(r, step)
+                z = end + (z - end) * math.exp(-abs(step) / (r * distance))
+                alone.append(z)
+            np.testing.assert_allclose(found[:, j], alone, rtol=0.0, atol=1e-13)
+            if timed:
+                now = (column[2:] - column[:-2]) / (time[2:] - time[:-2])
+                r = np.array([_excess.py_func(stiction, one, slowest) for one in now.tolist()])
+                np.testing.assert_allclose(v[1:-1, j], now, rtol=1e-14, atol=0.0)
+                told = now - np.abs(now) * found[1:-1, j] / r
+                np.testing.assert_allclose(bending[1:-1, j], told, rtol=0.0, atol=1e-12 * max(np.abs(now)))
+
+
+def test_a_particle_of_lugres_does_not_know_of_the_others():
+    rng = np.random.default_rng(4)
+    p = swarm_of_lugre(rng, 19)
+    time, u = np.arange(200.0), PATH[:, None] * rng.uniform(0.5, 1.5, 19)
+    some = lugre(time, True, np.ascontiguousarray(u[:, 5:11]), *(row[5:11] for row in p))
+    for few, all_of_them in zip(some, lugre(time, True, u, *p), strict=True):
+        assert np.array_equal(few, all_of_them[:, 5:11])
