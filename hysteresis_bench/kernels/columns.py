@@ -9,8 +9,7 @@ from __future__ import annotations
 
 from numba import njit
 
-LANES = 8
-"""Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
+from hysteresis_bench.kernels.lanes import LANES
 
 
 @njit(forceinline=True, error_model="numpy")

@@ -24,8 +24,9 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.columns import LANES, given_out, taken_in
+from hysteresis_bench.kernels.columns import given_out, taken_in
 from hysteresis_bench.kernels.elementary import TO_BASE_2, base_2_logarithm, power_of_2
+from hysteresis_bench.kernels.lanes import LANES
 
 EVEN = 1e-6
 """Distance of the exponent from 1 within which it counts as 1."""

@@ -19,6 +19,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.lanes import LANES
 from hysteresis_bench.kernels.langevin import langevin_ratio
 from hysteresis_bench.kernels.play import played
 
@@ -31,8 +32,6 @@ CURVED = 0.48
 """Half the largest second derivative of the right side in m, 9 coupling^2 L'' with |L''| < 0.106."""
 RISE = 1 / 3
 """Slope of L at 0."""
-LANES = 8
-"""Particles side by side; a swarm is padded to a multiple with copies of its last particle."""
 
 # Rows of a group: what does not change, the state with the last step, and the search for m.
 FIELD, INVERSE, NOW, NEXT, M, LAST, STEADY, RATE, BEFORE = (row * LANES for row in range(9))

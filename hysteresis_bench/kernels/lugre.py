@@ -18,8 +18,9 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.columns import LANES, given_out, taken_in
+from hysteresis_bench.kernels.columns import given_out, taken_in
 from hysteresis_bench.kernels.elementary import exponential
+from hysteresis_bench.kernels.lanes import LANES
 
 LONGEST = 700.0
 """Negative exponent at which an exponential counts as gone."""

@@ -13,8 +13,9 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.columns import LANES, given_out, taken_in
+from hysteresis_bench.kernels.columns import given_out, taken_in
 from hysteresis_bench.kernels.elementary import base_2_logarithm, base_2_logarithm_to_2, power_of_2
+from hysteresis_bench.kernels.lanes import LANES
 
 LEAST = 1e-300
 """Least of what is raised to m."""
