@@ -50,6 +50,9 @@ TOLERANCE, TOLERANCE_ANY = 1.5e-8, 2e-9
 """Largest last term of the series as a share of A w, n = 3 and any n; what the result is off by is a hundredth of it
 or less on finely sampled data."""
 
+LEFT_OUT = 28 / 3
+"""Largest q^2 over the tolerance, of a step from 0 with n = 3: h = A w (1 - q/4 + 3 q^2/28 - ...), q = rate A^2 w^3."""
+
 FRACTION_LIMIT = 0.3
 """Largest |z^2| for the continued fraction of tanh(z) / z below; it is off by 1e-15 there."""
 
@@ -85,7 +88,8 @@ def _cubed_step(h, drive, rate, step):  # type: ignore[no-untyped-def]
     series = ((1.0 - 1.5 * c) + c2 * (1.5 - 1.125 * c)) + (e * (3.0 * c - 1.0) - 0.25 * q)
     last = (first * c) * ((2.25 * q + 0.675 * (c2 * c)) - 4.95 * (c * e))
     new = h + (first * series + last)
-    return new if abs(last) <= TOLERANCE * abs(rise) else np.nan
+    # near 0 the last term vanishes with h, and the one of seventh order, 3/28 q^2, is what is left out
+    return new if (abs(last) <= TOLERANCE * abs(rise)) & (q * q <= LEFT_OUT * TOLERANCE) else np.nan
 
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
@@ -109,7 +113,9 @@ def _power_step(h, power, drive, rate, step, n):  # type: ignore[no-untyped-def]
     last = fifth * rise * ((step * step) * (step * step) * (1.0 / 120.0))
     series = 1.0 + step * (d * (1.0 / 2.0) + step * (third * (1.0 / 6.0) + step * (fourth * (1.0 / 24.0))))
     new = h + (rise * series + last)
-    return new if abs(last) <= TOLERANCE_ANY * abs(drive * step) else np.nan
+    # a series about h says little of what is further from it than 0 is
+    near = abs(drive * step) <= size
+    return new if (abs(last) <= TOLERANCE_ANY * abs(drive * step)) & near else np.nan
 
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})

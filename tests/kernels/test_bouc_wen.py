@@ -119,6 +119,19 @@ def test_other_powers_of_a_swarm_agree_with_the_step_for_one_particle(n):
             np.testing.assert_allclose(found, expected, rtol=0, atol=2e-9 * np.ptp(expected))
 
 
+@pytest.mark.parametrize("n", [1.5, 2.0, 2.5, 3.0, 4.0, 5.0])
+def test_a_long_step_from_near_0_is_told_from_a_short_one(n):
+    """There all derivatives of |h|^(n-1) h are next to nothing, and say nothing of how long a step may be."""
+    rng = np.random.default_rng(7)
+    for _ in range(40):
+        steps = rng.choice([1e-4, 1e-3, 1e-2, 0.1, 0.5, 2.0], 12) * rng.uniform(-1.0, 1.0, 12)
+        u, p = np.concatenate([[0.0], np.cumsum(steps)]), rng.uniform([0.1, 0.2, -0.2, 0.5], [1.0, 3.0, 0.2, 2.0])
+        found, h = bouc_wen_power(u[:, None], *columns(p), n)[:, 0], 0.0
+        for i, step in enumerate(np.diff(u), 1):
+            h = moved(h, step, p[0] * p[3], p[1], p[2], n, np.inf)
+            assert abs(found[i] - (p[3] * u[i] - h)) <= 3e-8 * np.ptp(found)
+
+
 @pytest.mark.parametrize("n", [1.3, 2.0, 3.0, 4.0])
 def test_the_crossing_of_0_in_few_terms_is_that_of_the_whole_series(n):
     rng = np.random.default_rng(10)
