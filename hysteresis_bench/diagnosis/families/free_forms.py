@@ -62,10 +62,11 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
 
 def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], most: int) -> Hypothesis:
     """With the free forms that the system asks for, each with the names that are found beside it, `most` in all."""
-    current, seen = start, {start.names}
+    current, seen, room = start, {start.names}, max(len(selection.adopted(start)) + 1, CLAIMS)
     for _ in range(CURVES):
         selection.candidates = (*names, *selection.forms)
-        better = _freed(selection, current, [form for form in selection.forms if form not in current.names])
+        beside = len(selection.adopted(current)) < room
+        better = _freed(selection, current, [form for form in selection.forms if form not in current.names], beside)
         if better is None or better.names in seen:
             break
         selection.candidates = (*names, *(form for form in selection.forms if form in better.names))
@@ -75,11 +76,13 @@ def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], mos
     return current
 
 
-def _freed(selection: Selection, current: Hypothesis, forms: list[str]) -> Hypothesis | None:
-    """With one free form more, the one that does best; None where the names do as well as all of them."""
+def _freed(selection: Selection, current: Hypothesis, forms: list[str], beside: bool) -> Hypothesis | None:
+    """With one free form more, the one that does best; None where the names do as well as all of them.
+
+    beside : where there is room for one, or else in the place of names alone"""
     if current.rmse <= MATTERS * selection.floor:
         return None
-    tried = [*selection.with_each(current, forms), *_in_place(selection, current, forms)]
+    tried = [*selection.with_each(current, forms if beside else []), *_in_place(selection, current, forms)]
     found = [system for system in tried if _clearly(selection, current, system)]
     if not found:
         return None
