@@ -9,7 +9,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.around import Around, Standing, concluded, of_few_parameters, searched
 from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
-from hysteresis_bench.diagnosis.doubt.simpler_law import simpler_law
+from hysteresis_bench.diagnosis.doubt.same_effects import better_law, simpler_law
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.laws.choice import TIED
 from hysteresis_bench.diagnosis.laws.comparison import Comparison, compare
@@ -38,22 +38,24 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
     laws = compare(dataset, question, effects_follow=True)
-    promising = _promising(laws, len(with_held_out(dataset)[0].fitted) > 1)
-    found = list(_pursued(dataset, question, promising))
+    found = list(_pursued(dataset, question, laws))
     if simpler := _simpler(found, laws, question.options.seed):
-        promising.append(simpler)
         found.append(searched(dataset, replace(question, model=simpler)))
-    best = _judged(found, promising)
+    best = _judged(found)
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))
 
 
-def _pursued(dataset: Dataset, question: Question, laws: Sequence[str]) -> Iterator[Around]:
-    """One after the other, until one predicts to the noise, without anything that another law may have in itself or in
-    its shape: from there none can do clearly better with less."""
-    for law in laws:
-        yield (one := searched(dataset, replace(question, model=law)))
-        if is_rate_independent(law) and one.standing.reached and not one.standing.shaped:
-            return
+def _pursued(dataset: Dataset, question: Question, laws: Comparison) -> Iterator[Around]:
+    """The most promising law, and another one unless that predicts to the noise, without anything that another law may
+    have in itself or in its shape: from there none can do clearly better with less. Where it does not predict to the
+    noise, the other is the one that follows best with the effects that were found around it; the laws were ranked
+    without them."""
+    first, *others = _promising(laws, len(with_held_out(dataset)[0].fitted) > 1)
+    yield (one := searched(dataset, replace(question, model=first)))
+    if not others or (is_rate_independent(first) and one.standing.reached and not one.standing.shaped):
+        return
+    better = "" if one.standing.reached else better_law(first, one.found, _plain(laws, [first]), question.options)
+    yield searched(dataset, replace(question, model=better or others[0]))
 
 
 def _simpler(found: Sequence[Around], laws: Comparison, seed: int) -> str:
@@ -63,15 +65,22 @@ def _simpler(found: Sequence[Around], laws: Comparison, seed: int) -> str:
     if not preferred.reached:
         return ""
     (around,) = (one for one in found if one.question.model == preferred.law)
-    known, count = {one.question.model for one in found}, laws.table.set_index("law")["parameters"]
-    fewer = [law for law in of_few_parameters(laws.ranked) if count[law] < count[preferred.law] and law not in known]
-    asked = sorted(filter(is_rate_independent, fewer), key=lambda law: count[law])
-    return simpler_law(preferred.law, around.found, asked, seed)
+    known, count = [one.question.model for one in found], laws.table.set_index("law")["parameters"]
+    fewer = [law for law in _plain(laws, known) if count[law] < count[preferred.law]]
+    return simpler_law(preferred.law, around.found, fewer, seed)
 
 
-def _judged(found: Sequence[Around], laws: Sequence[str]) -> Diagnosis:
+def _plain(laws: Comparison, known: Sequence[str]) -> list[str]:
+    """Laws without dynamics of their own that are not `known`, that of fewest parameters first."""
+    count = laws.table.set_index("law")["parameters"]
+    others = [law for law in of_few_parameters(laws.ranked) if law not in known and is_rate_independent(law)]
+    return sorted(others, key=lambda law: count[law])
+
+
+def _judged(found: Sequence[Around]) -> Diagnosis:
     """The preferred one, as it is after other laws were asked; then another one may be preferred, and is asked too."""
     standings, known = {one.question.model: one.standing for one in found}, dict[str, Diagnosis]()
+    laws = tuple(standings)
     while (law := _preferred([*standings.values()]).law) not in known:
         (around,) = (one for one in found if one.question.model == law)
         known[law] = told = concluded(around, laws)

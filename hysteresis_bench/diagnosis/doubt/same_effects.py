@@ -1,18 +1,22 @@
-"""Does a law of fewer parameters follow the records as well, with the same effects?
+"""Other laws with the effects that were found around one: does one of fewer parameters, or any, follow as well?
 
 Laws are ranked before their effects are known. One that contains the right one, as a generalized law contains the one
 that it generalizes, may take up a part of an effect, come before it, and follow no better once the effect is known.
+Where two effects act, a wrong law may come before the right one, which lacks both; one of them may be found around it.
 """
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 
 from hysteresis_bench.diagnosis.doubt.doubt import SCREENED
-from hysteresis_bench.diagnosis.doubt.other_laws import OtherLaws
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.choice import TIED
 from hysteresis_bench.diagnosis.preparation import thinned
+from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.diagnosis.search.search import Found
 
 
@@ -21,8 +25,28 @@ def simpler_law(asked: str, found: Found, laws: Sequence[str], seed: int) -> str
 
     found : around the law `asked`;  laws : others, that of fewest parameters first
     """
-    stack = found.thin.stack
-    few, effects = thinned(views_of(stack.records), SCREENED), found.selection.adopted(found.best)
-    around = OtherLaws(asked, stack, few, effects, found.selection.floor, seed)
+    around = _around(asked, found, seed)
     least = TIED * around.screened(asked).rmse if laws else 0.0
     return next((law for law in laws if around.screened(law).rmse <= least), "")
+
+
+def better_law(asked: str, found: Found, laws: Sequence[str], options: DiagnosisOptions) -> str:
+    """The first that leaves as little (`TIED`) of `SCREENED` samples as any does with all that was found, where that is
+    less than `asked` leaves; "" where none does, or nothing was found.
+
+    found : around the law `asked`;  laws : others, that of fewest parameters first
+    """
+    around = _around(asked, found, options.seed)
+    if not (around.effects and laws):
+        return ""
+    jobs = options.jobs or min(4, os.cpu_count() or 1)
+    with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
+        own, *others = workers.map([("screened", law) for law in (asked, *laws)])
+    least = min(own.rmse, TIED * min(one.rmse for one in others))
+    return next((one.model for one in others if one.rmse < least), "")
+
+
+def _around(asked: str, found: Found, seed: int) -> OtherLaws:
+    stack, selection = found.thin.stack, found.selection
+    few = thinned(views_of(stack.records), SCREENED)
+    return OtherLaws(asked, stack, few, selection.adopted(found.best), selection.floor, seed)

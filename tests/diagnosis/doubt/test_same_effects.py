@@ -3,7 +3,7 @@
 import pytest
 
 from hysteresis_bench import measure
-from hysteresis_bench.diagnosis.doubt.simpler_law import simpler_law
+from hysteresis_bench.diagnosis.doubt.same_effects import simpler_law
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
