@@ -65,16 +65,17 @@ def _simpler(found: Sequence[Around], laws: Comparison, seed: int) -> str:
     if not preferred.reached:
         return ""
     (around,) = (one for one in found if one.question.model == preferred.law)
-    known, count = [one.question.model for one in found], laws.table.set_index("law")["parameters"]
-    fewer = [law for law in _plain(laws, known) if count[law] < count[preferred.law]]
-    return simpler_law(preferred.law, around.found, fewer, seed)
+    others = _plain(laws, [one.question.model for one in found])
+    own = laws.table.set_index("law")["parameters"][preferred.law]
+    fewer = [law for law, count in others.items() if count < own]
+    return simpler_law(preferred.law, around.found, sorted(fewer, key=lambda law: others[law]), seed)
 
 
-def _plain(laws: Comparison, known: Sequence[str]) -> list[str]:
-    """Laws without dynamics of their own that are not `known`, that of fewest parameters first."""
+def _plain(laws: Comparison, known: Sequence[str]) -> dict[str, int]:
+    """Laws of few parameters without dynamics of their own that are not `known`, and how many parameters they have."""
     count = laws.table.set_index("law")["parameters"]
     others = [law for law in of_few_parameters(laws.ranked) if law not in known and is_rate_independent(law)]
-    return sorted(others, key=lambda law: count[law])
+    return {law: int(count[law]) for law in others}
 
 
 def _judged(found: Sequence[Around]) -> Diagnosis:

@@ -8,7 +8,7 @@ Where two effects act, a wrong law may come before the right one, which lacks bo
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from hysteresis_bench.diagnosis.doubt.doubt import SCREENED
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
@@ -30,20 +30,20 @@ def simpler_law(asked: str, found: Found, laws: Sequence[str], seed: int) -> str
     return next((law for law in laws if around.screened(law).rmse <= least), "")
 
 
-def better_law(asked: str, found: Found, laws: Sequence[str], options: DiagnosisOptions) -> str:
-    """The first that leaves as little (`TIED`) of `SCREENED` samples as any does with all that was found, where that is
-    less than `asked` leaves; "" where none does, or nothing was found.
+def better_law(asked: str, found: Found, parameters: Mapping[str, int], options: DiagnosisOptions) -> str:
+    """Of the laws that leave less of `SCREENED` samples than `asked` with all that was found, the one of which least is
+    expected (times 1 + parameters / blocks, as of `laws.choice`); "" where none does, or nothing was found.
 
-    found : around the law `asked`;  laws : others, that of fewest parameters first
+    found : around the law `asked`;  parameters : how many the others have
     """
-    around = _around(asked, found, options.seed)
-    if not (around.effects and laws):
+    around, blocks = _around(asked, found, options.seed), int(found.thin.blocks.block.max()) + 1
+    if not (around.effects and parameters):
         return ""
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
-        own, *others = workers.map([("screened", law) for law in (asked, *laws)])
-    least = min(own.rmse, TIED * min(one.rmse for one in others))
-    return next((one.model for one in others if one.rmse < least), "")
+        own, *others = workers.map([("screened", law) for law in (asked, *parameters)])
+    expected = {one.model: one.rmse * (1.0 + parameters[one.model] / blocks) for one in others if one.rmse < own.rmse}
+    return min(expected, key=lambda law: expected[law], default="")
 
 
 def _around(asked: str, found: Found, seed: int) -> OtherLaws:

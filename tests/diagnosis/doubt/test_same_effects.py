@@ -49,9 +49,10 @@ def test_they_are_asked_in_their_order(around):
 
 def test_with_what_was_found_around_a_wrong_law_the_right_one_follows_better(around_a_wrong_one):
     assert "output-lag" in around_a_wrong_one.selection.adopted(around_a_wrong_one.best)
-    assert better_law("jiles-atherton", around_a_wrong_one, ("bouc-wen", "dahl", "ferroelectric"), ONE) == "bouc-wen"
-    assert better_law("jiles-atherton", around_a_wrong_one, (), ONE) == ""
+    laws = {"bouc-wen-generalized": 12, "dahl": 5, "bouc-wen": 4}
+    assert better_law("jiles-atherton", around_a_wrong_one, laws, ONE) == "bouc-wen"
+    assert better_law("jiles-atherton", around_a_wrong_one, {}, ONE) == ""
 
 
 def test_around_the_right_law_none_follows_better(around):
-    assert better_law("bouc-wen-generalized", around, ("dahl", "jiles-atherton"), ONE) == ""
+    assert better_law("bouc-wen-generalized", around, {"dahl": 5, "jiles-atherton": 5}, ONE) == ""
