@@ -110,13 +110,16 @@ class Problem:
 
     def residuals(self, points: Array) -> Array:
         """Simulated minus measured, (scored samples, swarm), finite; points : (dimension, swarm) in the unit box."""
+        return self.errors(np.ascontiguousarray(self.space.from_unit(points)), self.block)
+
+    def errors(self, values: Array, block: int) -> Array:
+        """The same for values (dimension, swarm), in units, so many columns at once."""
         from hysteresis_bench.kernels.squares import residuals_into
 
-        values = np.ascontiguousarray(self.space.from_unit(points))
         limit = CEILING * self.scale
         joined = np.empty((self.samples, values.shape[1]))
-        for first in range(0, values.shape[1], self.block):
-            columns = slice(first, first + self.block)
+        for first in range(0, values.shape[1], block):
+            columns = slice(first, first + block)
             part, row = np.ascontiguousarray(values[:, columns]), 0
             for record in self.records:
                 simulated = self.system.respond(record, part)[record.scored]

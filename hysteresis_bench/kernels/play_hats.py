@@ -6,12 +6,40 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.lanes import LANES
 from hysteresis_bench.kernels.play import played
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def play_hats(u: Array, radii: Array, nodes: Array, weights: Array) -> Array:
-    """sum over plays k of phi_k(P_k), phi_k straight between nodes, rising by weights[k, j] from node j to j + 1.
+def _followed(u: Array, radius: float, edges: Array, pieces: Array, shares: Array) -> None:
+    """The way of a play: the piece of the curve where it is, and how far along that, at every sample."""
+    last, place, piece = edges.size - 2, u[0], 0
+    for i in range(u.size):
+        place = played(u[i], radius, place)
+        while piece < last and place > edges[piece + 1]:
+            piece += 1
+        while piece > 0 and place < edges[piece]:
+            piece -= 1
+        share = (place - edges[piece]) / (edges[piece + 1] - edges[piece])
+        pieces[i] = piece
+        shares[i] = min(max(share, 0.0), 1.0)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _risen(pieces: Array, shares: Array, weights: Array, below: Array, rises: Array, y: Array) -> None:
+    """Adds the curve of these weights along a way to y; below, rises : (pieces,), overwritten"""
+    value = 0.0
+    for piece in range(weights.size):
+        below[piece] = value
+        value += weights[piece]
+        rises[piece] = value - below[piece]
+    for i in range(pieces.size):
+        y[i] += below[pieces[i]] + shares[i] * rises[pieces[i]]
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def play_hats(u: Array, radii: Array, nodes: Array, weights: Array, slope: Array) -> Array:
+    """slope u + sum over plays k of phi_k(P_k), phi_k straight, rising by weights[k, j] from node j to j + 1.
 
     The slope of phi_k is a sum of steps, a Preisach density of steps where there are many plays. Before the first node
     phi_k is 0, past the last it stays. Rate-independent, exact for an input that is monotone between its samples. Every
@@ -21,33 +49,35 @@ def play_hats(u: Array, radii: Array, nodes: Array, weights: Array) -> Array:
     radii : float64[plays, swarm]                         half-widths, unit of u, >= 0
     nodes : float64[pieces + 1, swarm]                    rising, unit of u
     weights : float64[plays, pieces, swarm]               unit of the output
+    slope : float64[swarm]                                unit of the output over that of u
     -> float64[samples, swarm]                            unit of the output
     """
     samples, columns = u.shape
-    plays, pieces, swarm = weights.shape
-    y = np.zeros((samples, swarm))
-    below = np.empty(pieces + 1)
-    for j in range(swarm):
-        column = j if columns > 1 else 0
-        edges = nodes[:, j].copy()
-        for k in range(plays):
-            below[0] = 0.0
-            flat = True
-            for piece in range(pieces):
-                below[piece + 1] = below[piece] + weights[k, piece, j]
-                flat = flat and weights[k, piece, j] == 0.0
-            if flat:  # as all curves but one are where a fit asks for its columns
-                continue
-            radius = radii[k, j]
-            place = u[0, column]
-            piece = 0
+    plays, count, swarm = weights.shape
+    y = np.empty((samples, swarm))
+    used = np.zeros((plays, swarm), dtype=np.bool_)
+    for k in range(plays):
+        for piece in range(count):
+            for j in range(swarm):
+                used[k, j] |= weights[k, piece, j] != 0.0
+    sums, below, rises = np.empty((LANES, samples)), np.empty(count), np.empty(count)
+    pieces, shares = np.empty(samples, dtype=np.int64), np.empty(samples)
+    radius, edges, way = np.nan, nodes[:, 0].copy(), u[:, 0].copy()
+    for first in range(0, swarm, LANES):  # so many that a line of y in the cache is written once
+        lanes = min(LANES, swarm - first)
+        for lane in range(lanes):
+            j = first + lane
+            if columns > 1 or (edges != nodes[:, j]).any():
+                radius, edges, way = np.nan, nodes[:, j].copy(), u[:, j if columns > 1 else 0].copy()
             for i in range(samples):
-                place = played(u[i, column], radius, place)
-                while piece < pieces - 1 and place > edges[piece + 1]:
-                    piece += 1
-                while piece > 0 and place < edges[piece]:
-                    piece -= 1
-                share = (place - edges[piece]) / (edges[piece + 1] - edges[piece])
-                share = min(max(share, 0.0), 1.0)
-                y[i, j] += below[piece] + share * (below[piece + 1] - below[piece])
+                sums[lane, i] = slope[j] * way[i]
+            for k in range(plays):
+                if used[k, j]:  # as is one curve alone where a fit asks for its columns, and many have its play
+                    if radii[k, j] != radius:
+                        radius = radii[k, j]
+                        _followed(way, radius, edges, pieces, shares)
+                    _risen(pieces, shares, weights[k, :, j], below, rises, sums[lane])
+        for i in range(samples):
+            for lane in range(lanes):
+                y[i, first + lane] = sums[lane, i]
     return y

@@ -25,3 +25,15 @@ def test_what_is_free_takes_either_sign():
     expected[free] -= twice[6:]
     np.testing.assert_allclose(found, expected, rtol=1e-8, atol=1e-12)
     assert found[free].min() < 0.0 <= found[~free].min()
+
+
+def test_few_of_many_alike_unknowns_are_found():
+    rng = np.random.default_rng(3)
+    ramps = np.clip(np.linspace(0.0, 1.0, 300)[:, None] * 90.0 - np.arange(90), 0.0, 1.0)
+    target = 0.4 * ramps[:, 7] + ramps[:, 8] + 0.1 * rng.normal(size=300)
+    matrix = ramps.T @ ramps + 1e-8 * np.eye(90)
+    found = least_above(matrix, ramps.T @ target, np.zeros(90, dtype=bool), np.ones(90, dtype=bool))
+    slope = matrix @ found - ramps.T @ target
+    assert found.min() == 0.0
+    assert np.abs(slope[found > 0.0]).max() < 1e-9 < 1e-6 < slope[found == 0.0].max()
+    assert slope.min() > -1e-9

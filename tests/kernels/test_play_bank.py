@@ -55,5 +55,24 @@ def test_curves_of_straight_pieces_are_interpolated_between_their_nodes():
     for value in u.tolist():
         positions = [max(value - r, min(value + r, p)) for r, p in zip(radii[:, 0], positions, strict=True)]
         curves = [np.append(0.0, np.cumsum(rise[:, 0])) for rise in weights]
-        expected.append(sum(np.interp(p, nodes, curve) for p, curve in zip(positions, curves, strict=True)))
-    np.testing.assert_allclose(play_hats(u[:, None], radii, nodes[:, None], weights)[:, 0], expected, atol=1e-12)
+        expected.append(
+            0.3 * value + sum(np.interp(p, nodes, curve) for p, curve in zip(positions, curves, strict=True))
+        )
+    found = play_hats(u[:, None], radii, nodes[:, None], weights, np.array([0.3]))
+    np.testing.assert_allclose(found[:, 0], expected, atol=1e-12)
+
+
+def test_curves_that_share_a_way_or_an_input_are_those_of_a_swarm_of_one():
+    rng = np.random.default_rng(5)
+    u = np.cumsum(rng.normal(size=(200, 1)), axis=0)
+    radii, nodes = rng.uniform(0.0, 3.0, (3, 19)), np.sort(rng.normal(0.0, 5.0, (5, 19)), axis=0)
+    radii[:, 4:9], nodes[:, 4:9] = radii[:, 3:4], nodes[:, 3:4]
+    weights, slope = rng.normal(size=(3, 4, 19)), rng.normal(size=19)
+    weights[1, :, ::2] = 0.0
+    swarm = play_hats(u, radii, nodes, weights, slope)
+    own = play_hats(np.repeat(u, 19, axis=1), radii, nodes, weights, slope)
+    for j in range(19):
+        one = slice(j, j + 1)
+        alone = play_hats(u, *(np.ascontiguousarray(of[..., one]) for of in (radii, nodes, weights)), slope[one])
+        assert np.array_equal(swarm[:, one], alone)
+    assert np.array_equal(own, swarm)

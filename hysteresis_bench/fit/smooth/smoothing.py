@@ -65,6 +65,43 @@ class Smoothed:
 
 
 @dataclass(frozen=True, eq=False)
+class Part:
+    """Some of the samples.
+
+    places : (samples,), of all;  target : (samples,), what the law has to explain
+    columns : (samples, linear), what each linear parameter answers for, turned so that it counts from 0 up
+    """
+
+    places: Array
+    columns: Array
+    target: Array
+
+    @cached_property
+    def normal(self) -> Array:
+        product: Array = self.columns.T @ self.columns
+        return product
+
+    @cached_property
+    def descent(self) -> Array:
+        product: Array = self.columns.T @ self.target
+        return product
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """Of one point of the parameters that are not linear: what the least squares of all weights share.
+
+    folds : what each leaves out;  normal, descent : (linear, linear), (linear,), of all samples
+    penalty : (linear, linear), the square of the roughness, as large as `normal`
+    """
+
+    folds: tuple[Part, ...]
+    normal: Array
+    descent: Array
+    penalty: Array
+
+
+@dataclass(frozen=True, eq=False)
 class Smoothing:
     """problem : of a model with a roughness, and of effects around it."""
 
@@ -76,39 +113,45 @@ class Smoothing:
         from scipy.stats.qmc import Halton
 
         dimension = len(self._others) + 1
-
+        near = np.ones((out.blocks.folds, len(self._rows)))
         tried = []
 
         def left(point: Array) -> float:
-            tried.append(self._predicted(np.clip(point, 0.0, 1.0), out.blocks))
+            point = np.clip(point, 0.0, 1.0)
+            tried.append(self._predicted(self._equations(point, out.blocks), point, near))
             return _rms(tried[-1])
 
         points = Halton(dimension, scramble=False).random(SCREENED * dimension + 1)[1:]
-        first = points[int(np.argmin([left(point) for point in points]))]
-        options = {"maxfev": STEPS * dimension, "xatol": 1e-3, "fatol": 1e-4 * left(first)}
+        losses = [left(point) for point in points]
+        first, options = points[int(np.argmin(losses))], {"maxfev": STEPS * dimension, "xatol": 1e-3}
+        options["fatol"] = 1e-4 * min(losses)
         found = minimize(left, first, method="Nelder-Mead", bounds=[(0.0, 1.0)] * dimension, options=options)
         point = np.clip(found.x, 0.0, 1.0)
-        errors = best = self._predicted(point, out.blocks)
+        equations = self._equations(point, out.blocks)
+        errors = best = self._predicted(equations, point, near)
         for share in np.linspace(1.0, point[-1], WEIGHTS, endpoint=False):
             smoother = np.append(point[:-1], share)
-            errors = self._predicted(smoother, out.blocks)
+            errors = self._predicted(equations, smoother, near)
             if out.as_good(best, errors):
                 point = smoother
                 break
         else:
             errors = best
-        values, freedom = self._solved(point)
+        values, freedom = self._solved(equations, point)
         return Smoothed(values, _unchosen(errors, tried, out.blocks), self._power(point), freedom)
 
     def refitted(self, known: Smoothed) -> Array:
         """Values (dimension,) in units, of the same smoothness, for this problem's records."""
-        return self._solved(self._point(known))[0]
+        point = self._point(known)
+        return self._solved(self._equations(point), point)[0]
 
     def without(self, known: Smoothed, out: Array) -> Array:
         """Errors (left out,) of samples by the law of the same smoothness that counts the others;  out : (samples,)"""
         if not out.any():
             return np.empty(0)
-        return self._predicted(self._point(known), Blocks(~out, (~out).astype(int), 1))[out]
+        point, near = self._point(known), np.ones((1, len(self._rows)))
+        equations = self._equations(point, Blocks(~out, (~out).astype(int), 1))
+        return self._predicted(equations, point, near)[out]
 
     def _point(self, known: Smoothed) -> Array:
         point = self.problem.space.to_unit(known.values[:, None])[self._others, 0]
@@ -117,61 +160,73 @@ class Smoothing:
     def _power(self, point: Array) -> float:
         return float(LIGHTEST + point[-1] * (HEAVIEST - LIGHTEST))
 
-    def _predicted(self, point: Array, blocks: Blocks) -> Array:
+    def _equations(self, point: Array, blocks: Blocks | None = None) -> Equations:
+        """Whatever the point's weight; without blocks nothing is left out."""
         columns, target = self._columns(point)
-        normal, descent, penalty = columns.T @ columns, columns.T @ target, self._penalty(point, columns)
-        errors, least = np.empty(target.size), np.empty(0)
-        for fold in range(blocks.folds):
-            out = blocks.fold == fold
-            part, aim = columns[out], target[out]
-            least = self._least(normal - part.T @ part, descent - part.T @ aim, penalty, least)
-            errors[out] = aim - part @ least
+        fold, folds = (blocks.fold, blocks.folds) if blocks else (np.zeros(target.size), 0)
+        places = [np.flatnonzero(fold == one) for one in range(folds)]
+        parts = [Part(some, columns[some], target[some]) for some in (*places, np.flatnonzero(fold >= folds))]
+        normal = np.sum([part.normal for part in parts], axis=0)
+        descent = np.sum([part.descent for part in parts], axis=0)
+        return Equations(tuple(parts[:-1]), normal, descent, self._penalty(point, normal))
+
+    def _predicted(self, equations: Equations, point: Array, near: Array) -> Array:
+        """Errors (samples,) of every fold by what the others say, as smooth as the point's weight makes it.
+
+        near : (folds, linear), what is not 0 likely is not; the solutions take its place
+        """
+        penalty = 10.0 ** self._power(point) * equations.penalty
+        errors = np.empty(self.problem.samples)
+        for fold, part in enumerate(equations.folds):
+            matrix = equations.normal - part.normal + penalty
+            near[fold] = self._least(matrix, equations.descent - part.descent, near[fold])
+            errors[part.places] = part.target - part.columns @ near[fold]
         return errors
 
-    def _solved(self, point: Array) -> tuple[Array, float]:
+    def _solved(self, equations: Equations, point: Array) -> tuple[Array, float]:
         """Values (dimension,) in units, and the effective number of parameters."""
-        columns, target = self._columns(point)
-        normal, penalty = columns.T @ columns, self._penalty(point, columns)
-        found = self._least(normal, columns.T @ target, penalty)
-        free = np.flatnonzero((found > self._low) & (found < self._high))
-        one, all_ = (matrix[np.ix_(free, free)] for matrix in (normal, normal + penalty))
+        normal = equations.normal
+        matrix = normal + 10.0 ** self._power(point) * equations.penalty
+        found = self._least(matrix, equations.descent, np.ones(len(self._rows)))
+        low, high = self._span
+        free = np.flatnonzero((found > low) & (found < high))
+        one, all_ = (of[np.ix_(free, free)] for of in (normal, matrix))
         ridge = RIDGE * np.diag(np.diag(all_) + np.finfo(float).tiny)
         freedom = float(np.trace(np.linalg.solve(all_ + ridge, one))) + len(self._others)
         values = self._values(point)[:, 0]
-        values[self._rows] = found
+        values[self._rows] = found * self._signs
         return values, freedom
 
     def _columns(self, point: Array) -> tuple[Array, Array]:
-        """What each linear parameter answers for, (scored samples, linear), and what they have to explain."""
+        """What each linear parameter answers for, (scored samples, linear), turned so that it counts from 0 up, and
+        what they have to explain."""
         count = len(self._rows)
         values = np.repeat(self._values(point), count + 1, axis=1)
         values[self._rows] = 0.0
         values[self._rows, range(1, count + 1)] = self._units
-        found = self.problem.residuals(self.problem.space.to_unit(values))
-        return (found[:, 1:] - found[:, :1]) / self._units, -found[:, 0]
+        found = self.problem.errors(values, count + 1)
+        columns = found[:, 1:] - found[:, :1]
+        columns /= np.abs(self._units)
+        return columns, -found[:, 0]
 
-    def _penalty(self, point: Array, columns: Array) -> Array:
-        """Weighted square of the roughness, (linear, linear)."""
+    def _penalty(self, point: Array, normal: Array) -> Array:
+        """Square of the roughness, (linear, linear), as large as the columns' own."""
         model: Any = self.problem.system.model
         names = self.problem.space.names
         rough: Array = model.roughness(SimpleNamespace(**dict(zip(names, self._values(point), strict=True))))
-        square = np.zeros((len(self._rows), len(self._rows)))
-        own = np.array([self._rows.index(names.index(name)) for name in model.linear])
-        square[np.ix_(own, own)] = rough.T @ rough
+        rough = rough * self._signs[self._own]
+        square = np.zeros_like(normal)
+        square[np.ix_(self._own, self._own)] = rough.T @ rough
         # of those that can be rough alone: the others have other units
-        alike = np.sum(columns[:, np.diag(square) > 0.0] ** 2) / max(np.trace(square), np.finfo(float).tiny)
-        return np.asarray(10.0 ** self._power(point) * alike * square)
+        alike = np.diag(normal)[np.diag(square) > 0.0].sum() / max(np.trace(square), np.finfo(float).tiny)
+        return np.asarray(alike * square)
 
-    def _least(self, normal: Array, descent: Array, penalty: Array, near: Array | None = None) -> Array:
-        """The least of x normal x / 2 - descent x + x penalty x / 2 with x on its side of 0, (linear,); near : one of
-        like terms, empty where none is known."""
-        matrix, right = (normal + penalty) * np.outer(self._signs, self._signs), descent * self._signs
+    def _least(self, matrix: Array, descent: Array, near: Array) -> Array:
+        """The least of x matrix x / 2 - descent x with x inside its bounds, (linear,); near : one of like terms"""
         size = np.sqrt(np.diag(matrix) + np.finfo(float).tiny)
         matrix = matrix / np.outer(size, size) + RIDGE * np.eye(size.size)
-        inside = near != 0.0 if near is not None and near.size else np.ones(size.size, dtype=bool)
-        found = least_above(matrix, right / size, (self._low < 0.0) & (self._high > 0.0), inside)
-        least: Array = np.clip(found / size * self._signs, self._low, self._high)
-        return least
+        found = least_above(matrix, descent / size, self._free, near != 0.0)
+        return np.clip(found / size, *self._span)
 
     def _values(self, point: Array) -> Array:
         """(dimension, 1) in units, the linear ones 0; point : the others in the unit box, and the weight."""
@@ -190,12 +245,30 @@ class Smoothing:
         return [row for row in range(self.problem.space.dimension) if row not in self.problem.linear]
 
     @cached_property
+    def _own(self) -> list[int]:
+        """Of the linear ones, those of the model itself."""
+        model: Any = self.problem.system.model
+        place = {name: self._rows.index(row) for row, name in enumerate(self.problem.space.names) if row in self._rows}
+        return [place[name] for name in model.linear]
+
+    @cached_property
     def _low(self) -> Array:
         return np.array([self.problem.space.parameters[row].lower for row in self._rows])
 
     @cached_property
     def _high(self) -> Array:
         return np.array([self.problem.space.parameters[row].upper for row in self._rows])
+
+    @cached_property
+    def _free(self) -> Array:
+        """Which may have either sign."""
+        return (self._low < 0.0) & (self._high > 0.0)
+
+    @cached_property
+    def _span(self) -> tuple[Array, Array]:
+        """Bounds of what is turned."""
+        turned = self._signs < 0.0
+        return np.where(turned, -self._high, self._low), np.where(turned, -self._low, self._high)
 
     @cached_property
     def _units(self) -> Array:

@@ -84,11 +84,9 @@ class PreisachHats(Model):
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.play_hats import play_hats
 
-        weights = np.stack(p[4 : len(self.parameters)]).reshape(self.plays + 1, self.pieces, -1)
+        weights = np.concatenate(p[4 : len(self.parameters)]).reshape(self.plays + 1, self.pieces, -1)
         radii, nodes = self.cells(p)
-        y = play_hats(signal.input, rated(radii, signal, p), nodes, weights)
-        y += p.slope * signal.input
-        return y
+        return play_hats(signal.input, rated(radii, signal, p), nodes, weights, p.slope)
 
     def cells(self, p: Any) -> tuple[Array, Array]:
         """Thresholds (plays + 1, swarm) and nodes (pieces + 1, swarm), unit of the input."""
