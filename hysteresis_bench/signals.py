@@ -48,9 +48,23 @@ class Signal:
     input: Array
     timed: bool = True
     columns: Mapping[str, Array] = field(default_factory=dict)
+    _finer: dict[int, tuple[Array, Array]] = field(default_factory=dict, init=False, repr=False)
 
     def __post_init__(self) -> None:
         _close(self, "time", "input")
+
+    def finer(self, steps: int) -> tuple[Array, Array]:
+        """Time (instants,) and input (instants, columns) in as many steps a sample, the input along a cubic spline;
+        made once, for every simulation that this signal drives."""
+        from scipy.interpolate import CubicSpline
+
+        if steps == 1:
+            return self.time, self.input
+        if steps not in self._finer:
+            last = self.time.size - 1
+            time = np.interp(np.arange(last * steps + 1) / steps, np.arange(last + 1), self.time)
+            self._finer[steps] = read_only(time), read_only(CubicSpline(self.time, self.input)(time))
+        return self._finer[steps]
 
     def with_input(self, values: Array) -> Signal:
         """The same signal with another input, (samples, 1) or (samples, swarm)."""

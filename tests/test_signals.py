@@ -8,7 +8,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.signals import Record
+from hysteresis_bench.signals import Record, Signal
 
 
 def loop():
@@ -81,3 +81,14 @@ def test_a_law_of_finer_steps_is_the_finely_sampled_one():
     expected = system.respond(fine, values)[::8]
     off = [np.max(np.abs(system.respond(one, values) - expected)) for one in (coarse, replace(coarse, steps=8))]
     assert off[1] < 0.05 * off[0]
+
+
+def test_a_signal_is_refined_once():
+    time = np.array([0.0, 0.1, 0.3, 0.4, 0.6])
+    signal = Signal(time, (time**3)[:, None])
+    instants, force = signal.finer(4)
+    np.testing.assert_allclose(instants[::4], time, rtol=1e-15)
+    np.testing.assert_allclose(force[:, 0], instants**3, atol=1e-15)
+    assert signal.finer(4)[1] is force
+    assert signal.with_input(2.0 * signal.input).finer(4)[1][-1, 0] == pytest.approx(2.0 * 0.6**3)
+    assert signal.finer(1)[1] is signal.input

@@ -86,7 +86,7 @@ class Oscillator(Model):
 
         if signal.time.size < 2:
             return np.zeros((signal.time.size, p.mass.size))
-        time, force = _refined(signal.time, signal.input, self.substeps)
+        time, force = signal.finer(self.substeps)
         driven = (force, np.diff(time), self.substeps, p.mass, p.damping)
         if self.law == "bouc-wen":
             bound = np.full_like(p.mass, RUNAWAY * np.max(np.abs(force)))
@@ -177,13 +177,3 @@ def _stiff(box: Parameter) -> Parameter:
         low, high = NARROWED[box.name]
         return box.within(low * box.lower, high * box.upper)
     return box.within(0.0, box.upper) if box.name in ("slope", "d", "a0_1") else box
-
-
-def _refined(time: Array, force: Array, substeps: int) -> tuple[Array, Array]:
-    """Time and force with as many steps a sample, the force by a cubic spline: (steps,), (steps, columns)."""
-    from scipy.interpolate import CubicSpline
-
-    if substeps == 1:
-        return np.asarray(time), np.ascontiguousarray(force)
-    fine = np.interp(np.arange((time.size - 1) * substeps + 1) / substeps, np.arange(time.size), time)
-    return fine, np.ascontiguousarray(CubicSpline(time, force)(fine))
