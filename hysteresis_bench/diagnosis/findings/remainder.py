@@ -11,6 +11,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, f_tail
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
@@ -33,11 +34,13 @@ class Remainder:
     matters : something with a cause is left, or a residual that is too small a sample to tell
     slow : nothing is left but noise that changes slowly: correlated from sample to sample, without any cause that was
         measured, described by no term, and no louder where nothing was fitted
+    louder : where nothing was fitted, clearly more is left than where it was
     """
 
     equation: Equation | None
     matters: bool
     slow: bool
+    louder: bool
 
 
 def remainder(stage: Stage, evidence: Evidence) -> Remainder:
@@ -49,25 +52,28 @@ def remainder(stage: Stage, evidence: Evidence) -> Remainder:
     telling = [
         t for t in tests if t.share > TELLING and t.name not in ("noise-floor", "offset") and "scatter" not in t.name
     ]
-    if stage.fitted.rmse <= floor or not (loud or telling):
-        return Remainder(None, False, False)
     residuals, simulated = left_by(stage, views)
+    louder = _louder(stage, residuals, floor)
+    if stage.fitted.rmse <= floor or not (loud or telling):
+        return Remainder(None, False, False, louder)
     equation = find_terms([view.record for view in views], residuals, simulated)
     caused = [test for test in tests if test.name not in OF_THE_NOISE and "scatter" not in test.name]
     slow = any(test.name == "whiteness" for test in tests) and not caused and not equation.terms
-    slow = slow and not _louder(stage, residuals)
-    return Remainder(equation, not slow, slow)
+    slow = slow and not louder
+    return Remainder(equation, not slow, slow, louder)
 
 
-def _louder(stage: Stage, residuals: Sequence[Array]) -> bool:
-    """Is what was held out missed by more than what was fitted? Slow noise is as loud in every record.
+def _louder(stage: Stage, residuals: Sequence[Array], floor: float) -> bool:
+    """Is what was held out missed by more than what was fitted, and than the noise? Both are as loud in every record.
 
-    An F test of the mean squares, with as many effective samples as one of the fitted records has."""
+    An F test of the mean squares, with as many effective samples as one of the fitted records has; twice as much is too
+    much by any test."""
     if stage.held_out is None:
         return False
     squares = [part**2 for part in residuals]
     level = float(np.mean(np.concatenate(squares)))
-    ratio, effective = stage.held_out.rmse**2 / level, effective_samples([part - level for part in squares])
+    ratio = stage.held_out.rmse**2 / max(level, floor**2)
+    effective = effective_samples([part - level for part in squares])
     corrected = ratio * effective / (effective + 2.0 * stage.values.size)
     p = f_tail(corrected, effective / len(residuals), effective - stage.values.size)
-    return ratio > MISFIT**2 and p < LEVEL
+    return ratio > WRONG**2 or (ratio > MISFIT**2 and p < LEVEL)

@@ -81,7 +81,7 @@ class Outcome:
 
     @property
     def unexplained(self) -> bool:
-        left = self.left.matters or self.leaves_much
+        left = self.left.matters or self.left.louder or self.leaves_much
         return left or not self.found.follows or not self.carries_over or self.cause is not None
 
     @property
@@ -100,8 +100,7 @@ class Outcome:
     def doubtful(self) -> bool:
         """May the names be wrong, because much is left, or because they do not help where they were not fitted? That
         all laws need them on what was fitted is no answer to the latter."""
-        fitted, held_out = self.leaves
-        return self.doubted or not self.carries_over or held_out > WRONG * max(fitted, 1.0)
+        return self.doubted or not self.carries_over or self.left.louder
 
     @property
     def leaves(self) -> tuple[float, float]:
@@ -148,7 +147,7 @@ def headline(outcome: Outcome) -> str:
         said += " Terms that describe what was left, without explaining it, have been added."
     if outcome.doubt != Doubt():
         said += f" {' '.join(_of_the_law(outcome))}"
-    elif outcome.leaves[0] <= WRONG < outcome.leaves[1] and outcome.leaves_much:
+    elif outcome.left.louder and outcome.leaves[0] <= WRONG:
         said += f" What was held out is missed by {rounded(outcome.leaves[1])} times the noise: something is lacking."
     elif outcome.unexplained:
         said += " Something is left that no effect explains."
