@@ -52,6 +52,36 @@ def test_a_lag_before_and_after_a_linear_model_are_the_same():
     np.testing.assert_allclose(before, after, atol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("name", "first"), [("second-order-lag", "output-lag"), ("second-order-input-lag", "input-lag")]
+)
+def test_a_second_order_lag_is_two_lags_in_series(name, first):
+    """Of a step, against the closed form of two lags; each of them once, against a lag of the other's answer."""
+    slow, fast = 0.4, 0.1
+    damping = 0.5 * (slow + fast) / np.sqrt(slow * fast)
+    y = applied(name, STEP, time_constant=slow + fast, damping=damping)
+    left = (slow * np.exp(-SINCE[1:] / slow) - fast * np.exp(-SINCE[1:] / fast)) / (slow - fast)
+    np.testing.assert_allclose(y[1:], 2.0 * (1.0 - left), atol=0.03)  # the step's own edge takes one sample
+    fine = np.linspace(2.0, 6.0, 40001)
+    signal = record(fine, 3.0 * np.sin(2 * np.pi * fine) + 0.5).signal
+    lagged = applied("output-lag", signal, time_constant=slow)
+    twice = applied(first, signal.with_input(0.5 * lagged[:, None]), time_constant=fast)
+    np.testing.assert_allclose(applied(name, signal, time_constant=slow + fast, damping=damping), twice, atol=1e-7)
+
+
+def test_a_damped_stage_is_a_resonance_up_to_where_it_has_a_peak_and_a_second_order_lag_beyond():
+    slower = record(drive=3.0 * np.sin(np.pi * TIME))
+    assert box("resonance", record(), slower)["damping"][1] == box("second-order-lag", record(), slower)["damping"][0]
+    values = {"damping": np.sqrt(0.5), "time_constant": 0.2}
+    period = np.pi * values["time_constant"] / values["damping"]
+    resonating = applied("resonance", record().signal, period=period, damping=values["damping"])
+    np.testing.assert_allclose(applied("second-order-lag", record().signal, **values), resonating, atol=1e-12)
+    frequency = np.geomspace(0.01, 10.0, 400)
+    gains = {z: 1.0 / np.hypot(1.0 - frequency**2, 2.0 * z * frequency) for z in (0.65, 0.72)}
+    assert gains[0.65].max() > 1.01
+    assert gains[0.72].max() <= 1.0
+
+
 def test_a_delayed_output_is_the_output_of_an_earlier_input():
     y = applied("transport-delay", record().signal, delay=0.137)
     np.testing.assert_allclose(y, 2.0 * np.interp(TIME - 0.137, TIME, DRIVE), atol=1e-12)

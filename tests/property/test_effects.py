@@ -12,7 +12,10 @@ from hysteresis_bench.signals import Record
 
 NAMES = registry.names("effects")
 RATE_INDEPENDENT = ("asymmetry", "backlash", "bias", "fatigue", "saturation")
-TIME_INVARIANT = ("creep", "droop", "input-lag", "output-lag", "resonance", "transport-delay")
+TIME_INVARIANT = (
+    *("creep", "droop", "input-lag", "output-lag", "resonance", "transport-delay"),
+    *("second-order-lag", "second-order-input-lag"),
+)
 MODEL = np.array([[1.3], [0.4]])
 
 seeds = st.integers(0, 2**32 - 1)

@@ -46,6 +46,18 @@ def unequal_lag(x: Array, rising: float, falling: float, step: float) -> Array:
     return out
 
 
+def level_lag(x: Array, constant: float, level: float, step: float) -> Array:
+    """First order, its time constant half as long at 0 and three halves as long at a level to either side."""
+    state = float(x[0])
+    out = np.empty_like(x)
+    out[0] = state
+    for k in range(1, x.size):
+        here = constant * (0.5 + min(abs(state / level), 2.0))
+        state += step / max(here, step) * (0.5 * (x[k] + x[k - 1]) - state)
+        out[k] = state
+    return out
+
+
 def tustin_lag(x: Array, constant: float, step: float) -> Array:
     """First order, Tustin's rule."""
     return tustin(x, [1.0], [constant, 1.0], step)

@@ -12,7 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.effects._hidden import euler_lag, longest_lag, middling_lag, tustin_lag, unequal_lag
+from hysteresis_plugins.effects._hidden import euler_lag, level_lag, longest_lag, middling_lag, tustin_lag, unequal_lag
 from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
 
 
@@ -24,10 +24,9 @@ def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(tustin_lag(u, middling_lag(hiding), hiding.step))
 
 
-def _two_in_series(inner: Response, u: Array, hiding: Hiding) -> Array:
-    """Two equal lags in series, as of a sensor on a wall."""
-    half = 0.5 * longest_lag(hiding)
-    return inner(euler_lag(euler_lag(u, half, hiding.step), half, hiding.step))
+def _slower_far_out(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Slower the further out, as where a heat capacity grows."""
+    return inner(level_lag(u, longest_lag(hiding), hiding.amplitude, hiding.step))
 
 
 def _slower_down(inner: Response, u: Array, hiding: Hiding) -> Array:
@@ -64,7 +63,7 @@ class InputLag(Effect):
         "resonance": "an overdamped resonance is a lag, here on the other side of the hysteresis",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_two_in_series, _slower_down)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_slower_far_out, _slower_down)
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

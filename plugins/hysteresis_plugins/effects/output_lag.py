@@ -10,7 +10,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.effects._hidden import euler_lag, longest_lag, middling_lag, tustin_lag, unequal_lag
+from hysteresis_plugins.effects._hidden import euler_lag, level_lag, longest_lag, middling_lag, tustin_lag, unequal_lag
 from hysteresis_plugins.effects._ranges import FINEST, finest_step, longest, unresolved
 
 
@@ -22,10 +22,9 @@ def _tustin(inner: Response, u: Array, hiding: Hiding) -> Array:
     return tustin_lag(inner(u), middling_lag(hiding), hiding.step)
 
 
-def _two_in_series(inner: Response, u: Array, hiding: Hiding) -> Array:
-    """Two equal lags in series."""
-    half = 0.5 * longest_lag(hiding)
-    return euler_lag(euler_lag(inner(u), half, hiding.step), half, hiding.step)
+def _slower_far_out(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Slower the further out, as of a sensor that softens."""
+    return level_lag(inner(u), longest_lag(hiding), hiding.top, hiding.step)
 
 
 def _slower_down(inner: Response, u: Array, hiding: Hiding) -> Array:
@@ -59,7 +58,7 @@ class OutputLag(Effect):
         ),
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler, _tustin)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_two_in_series, _slower_down)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_slower_far_out, _slower_down)
     parameters = (Parameter("time_constant", 1e-4, 10.0, "{time}", "log", null=0.0, meaning="tau of the lag"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -14,6 +14,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._hidden import tustin
 from hysteresis_plugins.effects._ranges import one_frequency
+from hysteresis_plugins.effects._second_order import PEAKED
 
 
 def _semi_implicit(inner: Response, u: Array, hiding: Hiding) -> Array:
@@ -99,9 +100,10 @@ class Resonance(Effect):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Periods up to twice the one in which the fastest record runs through its range: a slower stage
-        would not have let it through."""
+        would not have let it through. Damping up to where the gain has a peak: beyond that it is a
+        `second-order-lag`."""
         period, damping = self.parameters
-        return period.within(0.0, 2.0 * fastest_period(records)), damping
+        return period.within(0.0, 2.0 * fastest_period(records)), damping.within(damping.lower, PEAKED)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         if not all(record.timed for record in records):

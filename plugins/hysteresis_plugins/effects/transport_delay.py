@@ -32,11 +32,10 @@ def _all_pass(inner: Response, u: Array, hiding: Hiding) -> Array:
     return tustin(inner(u), [-half, 1.0], [half, 1.0], hiding.step)
 
 
-def _three_ways(inner: Response, u: Array, hiding: Hiding) -> Array:
-    """The mean of three delays, as of a moving average in an instrument."""
+def _two_ways(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """The mean of two delays, as of two pipes of unlike length."""
     y, late = inner(u), longest_lag(hiding)
-    ways = [np.interp(hiding.time - part * late, hiding.time, y) for part in (0.4, 1.0, 1.6)]
-    mean: Array = np.mean(ways, axis=0)
+    mean: Array = np.mean([np.interp(hiding.time - part * late, hiding.time, y) for part in (0.8, 1.2)], axis=0)
     return mean
 
 
@@ -62,7 +61,7 @@ class TransportDelay(Effect):
     affine = True
     relaxes = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_shifted, _between)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_all_pass, _three_ways)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_all_pass, _two_ways)
     parameters = (Parameter("delay", 1e-4, 1.0, "{time}", "log", null=0.0, meaning="of the output"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
