@@ -33,7 +33,7 @@ LINEAR = {"b": 5e4, "c_over_m": 60.0, "k_over_m": 4e4}
 EFFECTS = {
     "bias": {"offset": 0.2},
     "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
-    "droop": {"rate": 2.0},
+    "droop": {"rate": 2.0, "share": 0.8},
     "input-lag": {"time_constant": 0.004},
     "lag-curve-after": {"bend": 1.0, "falling_fast": 0.01, "falling": 0.01, "rising": 0.005, "rising_fast": 0.005},
     "output-lag": {"time_constant": 0.005},

@@ -64,7 +64,7 @@ EFFECTS = {
     "bias": {"offset": 0.7},
     "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
     "drift": {"rate": -0.3},
-    "droop": {"rate": 2.0},
+    "droop": {"rate": 2.0, "share": 0.8},
     "fatigue": {"rate": 0.01},
     "input-lag": {"time_constant": 0.01},
     "leakage": {"conductance": 0.5},

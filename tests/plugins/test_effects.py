@@ -110,7 +110,7 @@ def test_creep_of_no_decades_is_one_relaxation():
 def test_droop_lets_a_step_decay_and_keeps_what_was_there_at_the_first_sample():
     time = np.concatenate([[-1e-9], np.linspace(1e-9, 8.0, 500)])
     step = Signal(time, np.where(time > 0, 1.5, 0.5)[:, None])
-    y = applied("droop", step, rate=0.7)
+    y = applied("droop", step, rate=0.7, share=1.0)
     np.testing.assert_allclose(y, 1.0 + np.where(time > 0, 2.0 * np.exp(-0.7 * np.maximum(time, 0.0)), 0.0), atol=1e-8)
 
 
@@ -119,7 +119,11 @@ def test_droop_is_a_high_pass():
 
     rate, signal = 0.8, record().signal
     _, passed, _ = lsim(([1.0, 0.0], [1.0, rate]), 2.0 * (DRIVE - DRIVE[0]), TIME - TIME[0])
-    np.testing.assert_allclose(applied("droop", signal, rate=rate), 2.0 * DRIVE[0] + passed, atol=1e-10)
+    whole = applied("droop", signal, rate=rate, share=1.0)
+    np.testing.assert_allclose(whole, 2.0 * DRIVE[0] + passed, atol=1e-10)
+    np.testing.assert_allclose(
+        applied("droop", signal, rate=rate, share=0.3), 0.3 * whole + 0.7 * 2.0 * DRIVE, atol=1e-12
+    )
 
 
 def test_drift_counts_from_the_first_sample():

@@ -1,6 +1,7 @@
-"""A first-order high-pass of every column, in place, exact for a signal that is linear between its samples.
+"""A first-order high-pass of a share of every column, in place, exact for a signal that is linear between its samples.
 
-y = x_0 - e, e = lag(x) - x the deviation of `kernels.lag`: what is passed is what the lag is behind by.
+y = x - share (lag(x) - x_0), lag(x) = x + e with the deviation e of `kernels.lag`: what is passed of the share is what
+the lag is behind by.
 """
 
 from __future__ import annotations
@@ -15,12 +16,13 @@ from hysteresis_bench.kernels.linear_stage import SAME_STEP
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
-def droop(y: Array, time: Array, rate: Array) -> None:
-    """dy/dt = dx/dt - rate (y - x_0), y = x_0 at the first sample, in place of x.
+def droop(y: Array, time: Array, rate: Array, share: Array) -> None:
+    """y = x - share (z - x_0), dz/dt = rate (x - z), z = x at the first sample, in place of x.
 
     y : float64[samples, swarm]     x, overwritten
     time : float64[samples]         strictly increasing, any spacing
     rate : float64[swarm]           inverse time constant, 1 / unit of time; 0: x to the last bit
+    share : float64[swarm]          of the response that runs back
     """
     samples, swarm = y.shape
     kept, passed, deviation = np.ones(swarm), np.ones(swarm), np.zeros(swarm)
@@ -37,4 +39,4 @@ def droop(y: Array, time: Array, rate: Array) -> None:
             now = y[i, j]
             deviation[j] = kept[j] * deviation[j] - passed[j] * (now - before[j])
             before[j] = now
-            y[i, j] = first[j] - deviation[j] if rate[j] > 0.0 else now
+            y[i, j] = now - share[j] * (now - first[j] + deviation[j]) if rate[j] > 0.0 else now

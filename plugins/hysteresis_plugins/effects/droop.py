@@ -18,6 +18,9 @@ from hysteresis_plugins.effects._ranges import finest_step, longest, one_frequen
 
 SLOWEST = 1e-3
 """Least decay in the longest record: three decades below it nothing is left that noise would not hide."""
+LEAST, MOST = 0.1, 1.5
+"""Shares: less is slow creep backwards; two equal high-passes in series run back beyond the beginning by 0.14 of a
+step."""
 CENTRED = 0.1
 """Of its range, how far from its first value the input's mean may be to count as moving about it."""
 
@@ -53,14 +56,25 @@ def _incomplete(inner: Response, u: Array, hiding: Hiding) -> Array:
     return passed
 
 
+def _faster_far_out(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A leak that conducts better at a higher voltage."""
+    y = inner(u)
+    rate, passed = hiding.step / (1.5 * _time_constant(hiding)), y.copy()
+    for k in range(1, y.size):
+        away = passed[k - 1] - y[0]
+        passed[k] = passed[k - 1] + y[k] - y[k - 1] - rate * (1.0 + abs(away / hiding.top)) * away
+    return passed
+
+
 @dataclass(frozen=True)
 class Droop(Effect):
     """What is measured runs back to where it began: the discharge of a charge amplifier, or an AC coupling.
 
-    dy/dt = dx/dt - rate (y - x_0), y = x_0 at the first sample, x the response: a first-order high-pass with the time
-    constant 1 / rate of the amplifier's feedback [1], in terms of a lag y = x + x_0 - lag(x). Exact for a response that
-    is linear between its samples. The loop of a slow drive shrinks and leans against its sense of rotation. Ours: the
-    amplifier is reset, or has settled, at the first sample.
+    y = x - share (z - x_0), dz/dt = rate (x - z), z = x_0 at the first sample, x the response: with a share of 1 a
+    first-order high-pass with the time constant 1 / rate of the amplifier's feedback [1]. Exact for a response that is
+    linear between its samples. The loop of a slow drive shrinks and leans against its sense of rotation. Ours: the
+    amplifier is reset, or has settled, at the first sample; a share other than 1 runs back where only a part of the
+    coupling leaks, or beyond the beginning where two stages follow each other.
 
     [1] G. Gautschi, Piezoelectric Sensorics, Springer (2002), on amplifiers: drift and time constant.
     """
@@ -74,8 +88,11 @@ class Droop(Effect):
         "transport-delay": "at one frequency droop is a lead, which makes up for a part of a delay",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_euler,)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_second_order, _incomplete)
-    parameters = (Parameter("rate", 1e-4, 10.0, "1/{time}", "log", null=0.0, meaning="inverse time constant"),)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_second_order, _incomplete, _faster_far_out)
+    parameters = (
+        Parameter("rate", 1e-4, 10.0, "1/{time}", "log", null=0.0, meaning="inverse time constant"),
+        Parameter("share", LEAST, MOST, meaning="of the response that runs back, 1 of a charge amplifier"),
+    )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.effects.droop import droop
@@ -84,12 +101,13 @@ class Droop(Effect):
         if not signal.timed or not np.any(p.rate):
             return output
         output = own(output, signal)
-        droop(output, signal.time, p.rate)
+        droop(output, signal.time, p.rate, p.share)
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """From a thousandth over the longest record's duration to a tenth over a step's, which passes steps only."""
-        return (self.parameters[0].within(SLOWEST / longest(records), 0.1 / finest_step(records)),)
+        rate, share = self.parameters
+        return rate.within(SLOWEST / longest(records), 0.1 / finest_step(records)), share
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         if reason := unresolved(records):
