@@ -4,8 +4,8 @@ Where the final system predicts excitations left out worse than the noise allows
 every other law is fitted to a part of the samples, with the effects in question. Those that do best there are fitted to
 all, and effects that they do not need are taken off again. A law that predicts clearly better, and leaves less than
 half of the excess over the noise, is told as the cause; so is one that needs no curve and predicts as well as a system
-with one. What was adopted and is not needed around that law is a stand-in: it stays in the model, where it helps to
-predict, and is not named.
+with one, unless it has more parameters: a richer law follows the curve as well, and shows nothing. What was adopted and
+is not needed around that law is a stand-in: it stays in the model, where it helps to predict, and is not named.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ import numpy as np
 
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import MATTERS, NAMED
@@ -25,6 +27,9 @@ from hysteresis_bench.signals import Record
 
 PURSUED = 3
 """Laws that are fitted to all samples: those that leave least of the few."""
+
+AT_NULL = 1e-3
+"""Of its box, within which a weight of a curve counts as none."""
 
 NOBODY = Contender("", (), np.empty(0))
 
@@ -63,6 +68,15 @@ def law_as_cause(
     explained, excess = own.rmse**2 - best.rmse**2, own.rmse**2 - floor**2
     explains = own.rmse > MATTERS * best.rmse and explained > NAMED * excess
     clearly = explains and advantage(best.errors, own.errors, fitter.blocks) > CLEAR
-    if not clearly and not (curves and best.rmse <= MATTERS * max(own.rmse, floor)):
-        return None
-    return Cause(best.model, best.effects, best.rmse, own.rmse)
+    if not clearly:
+        most, reached = _in_use(fitter, found.final) if curves else 0, MATTERS * max(own.rmse, floor)
+        as_well = [one for one in predicting if one.parameters <= most and one.rmse <= reached]
+        best = min(as_well, key=lambda one: one.rmse, default=NOBODY)
+    return None if best is NOBODY else Cause(best.model, best.effects, best.rmse, own.rmse)
+
+
+def _in_use(fitter: Fitter, final: Hypothesis) -> int:
+    """Parameters of a system that are not at their nulls: a curve uses as many of its own as it needs."""
+    space = fitter.stack.problem(final.names).space
+    nulls = ((p, p.null, final.values[p.name]) for p in space.parameters)
+    return sum(null is None or abs(value - null) > AT_NULL * (p.upper - p.lower) for p, null, value in nulls)

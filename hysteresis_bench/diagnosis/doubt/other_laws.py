@@ -25,11 +25,13 @@ class Contender:
     """A law around the records.
 
     effects : those around it;  errors : (scored samples,), empty where it cannot be fitted
+    parameters : how many, of the law and of the effects
     """
 
     model: str
     effects: tuple[str, ...]
     errors: Array
+    parameters: int = 0
 
     @property
     def rmse(self) -> float:
@@ -69,7 +71,7 @@ class OtherLaws:
     def predicting(self, law: str) -> Contender:
         """With those of them that it needs around all samples, and its errors on records left out of the fit."""
         system, names = self._thinned(fitter := self._fitter(law, self.stack.records), self._possible(fitter))
-        return Contender(law, names, fitter.unseen(system))
+        return Contender(law, names, fitter.unseen(system), len(system.values))
 
     def _thinned(self, fitter: Fitter, effects: Sequence[str]) -> tuple[Hypothesis, tuple[str, ...]]:
         names = list(effects)

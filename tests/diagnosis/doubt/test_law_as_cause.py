@@ -97,3 +97,13 @@ def test_a_right_law_is_not_blamed(effects, imperfect):
     question, found = found_by(data_of("bouc-wen", *effects, imperfect=imperfect), "bouc-wen")
     laws = ("preisach", "prandtl-ishlinskii-modified", "ferroelectric")
     assert doubt(found, question, laws, laws) == Doubt()
+
+
+def test_a_richer_law_that_follows_a_curve_as_well_is_not_the_cause(ask_only):
+    """Bouc-Wen behind clearances of several widths: the generalized law, of twice the parameters, predicts as well."""
+    ask_only(["bouc-wen", "bouc-wen-generalized"])
+    settings = {"model": "bouc-wen", "effects": ("backlash",), "other": True, "draw": 2}
+    data = measure("hidden-effects", *RECORDS, "sweep", settings=settings, seed=7).split(RECORDS[-1:])
+    found = diagnose(data, Question("bouc-wen", options=OPTIONS))
+    assert (found.effects, found.better_law) == (("play-bank",), None)
+    assert found.after.held_out.rmse < 1.2 * found.floor
