@@ -140,8 +140,8 @@ class Record:
         )
 
     def skip(self, duration: float) -> Record:
-        """Turn the first `duration` (in units of time) into history: simulated, not scored."""
-        return replace(self, history=int(np.searchsorted(self.time, self.time[0] + duration)))
+        """Turn the first `duration` (in units of time) into history, if it is not yet: simulated, not scored."""
+        return replace(self, history=max(self.history, int(np.searchsorted(self.time, self.time[0] + duration))))
 
     def settled(self, repeats: int) -> Record:
         """A closed loop preceded by `repeats` of itself as history, so that a model has closed its loop

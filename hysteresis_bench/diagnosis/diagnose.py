@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from hysteresis_bench import registry
-from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.diagnosis.around import Around, Standing, concluded, of_few_parameters, searched
 from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
 from hysteresis_bench.diagnosis.doubt.same_effects import better_law, simpler_law
@@ -17,6 +16,7 @@ from hysteresis_bench.diagnosis.preparation import with_held_out
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.selection import NAMED
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.fit.checks.faulty_records import without_faults
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.signals import Dataset
 
@@ -32,7 +32,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     promising ones, and the pair of law and effects is taken that predicts best what it did not see (`_preferred`).
     Raises UserError telling every fault at once.
     """
-    dataset = without_spikes(dataset)
+    dataset = without_faults(dataset)
     if question.model:
         return concluded(searched(dataset, question), of_few_parameters(registry.names("models")))
     if question.settings or question.bounds or question.fixed:

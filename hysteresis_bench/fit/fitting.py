@@ -15,7 +15,6 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Optimizer
-from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import error_table, response_table, simulated
 from hysteresis_bench.fit.checks.advised import advice_with
@@ -23,6 +22,7 @@ from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
+from hysteresis_bench.fit.checks.faulty_records import without_faults
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
 from hysteresis_bench.fit.least_squares import not_overlooked, polish
@@ -137,7 +137,7 @@ def fit_records(
     fixed : parameters that are known, by name, in units
     Raises UserError telling what is wrong with the names, the data, the box or the parameters.
     """
-    dataset, settings = without_spikes(dataset), settings or {}
+    dataset, settings = without_faults(dataset, effects), settings or {}
     system = _system(model, settings, effects, fixed or {}, options)
     preparation = Preparation(options.input_offset, options.flip, options.skip)
     if faults := preparation.faults(dataset.records):

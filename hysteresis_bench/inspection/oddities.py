@@ -13,6 +13,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.spikes import spikes_told
 from hysteresis_bench.data.units import frequency_in, seconds_in
+from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Record
@@ -52,6 +53,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         _aliasing,
         _jitter,
         spikes_told,
+        jumps_told,
     )
     moving = [record for record in records if record.time.size > 3 and not _constant(record)]
     found = [said for record in records if record.time.size > 3 and (said := _constant(record))]

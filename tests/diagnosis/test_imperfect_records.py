@@ -1,5 +1,7 @@
 """Records with one fault each: the same names as without it, and the fault is told."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -148,3 +150,16 @@ def test_a_hum_that_passes_for_noise_is_named():
     assert found.effects == ("periodic-disturbance",)
     assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
     assert found.noise.floor < 1.3 * data.hidden["noise"]
+
+
+def test_a_slip_is_no_drift_in_a_diagnosis(names_only):
+    """It had been named `drift`, and unseen records had been missed by several times the noise."""
+    settings = {"model": "bouc-wen", "noise": 0.004, "draw": 1}
+    records = measure("hidden-effects", "slow", "fast", "nested", "mixed", settings=settings, seed=1).records
+    rising = np.where(np.arange(800) >= 360, 0.2 * np.ptp(records[1].output), 0.0)
+    faulty = [replace(one, output=one.output + rising) if one.name in ("fast", "mixed") else one for one in records]
+    with names_only():
+        found = diagnose(Dataset(tuple(faulty), ("mixed",)), Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
+    assert (found.verdict, found.effects) == ("no-effect-needed", ())
+    assert found.after.held_out.rmse < 1.1 * found.floor
+    assert sum("slipped" in said for said in found.warnings) == 2

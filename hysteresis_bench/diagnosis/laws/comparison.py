@@ -11,7 +11,6 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench import registry
-from hysteresis_bench.data.spikes import without_spikes
 from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
 from hysteresis_bench.diagnosis.evidence.memory import memory
@@ -30,6 +29,7 @@ from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
+from hysteresis_bench.fit.checks.faulty_records import without_faults
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.settling import FIRST_REPEATS, open_loops
@@ -167,7 +167,7 @@ def _prepared(dataset: Dataset, question: Question) -> Dataset:
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
     faults += around_faults("", question.effects) + question.preparation.faults(dataset.records)
     faults += open_loops(dataset.records) if settle and not faults else []
-    seen = dataset if faults else without_spikes(dataset).map(question.preparation)
+    seen = dataset if faults else without_faults(dataset).map(question.preparation)
     if faults := faults or record_faults(seen.fitted, "compare"):
         raise UserError("compare", faults)
     return seen

@@ -1,0 +1,29 @@
+"""What is done about faults of measured outputs before a fit: spikes are bridged, jumps get an offset of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import replace
+
+from hysteresis_bench import registry
+from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
+from hysteresis_bench.data.spikes import without_spikes
+from hysteresis_bench.signals import Dataset, Record
+
+
+def without_faults(dataset: Dataset, effects: Collection[str] = (registry.RECORD_OFFSET,)) -> Dataset:
+    """The data set that is fitted with these effects, by name, and a note on every fault. Jumps are only told where no
+    effect gives every record an offset of its own. They come first: a step would be taken for half of a spike."""
+    if registry.RECORD_OFFSET in effects:
+        return without_spikes(parted_at_jumps(dataset))
+    told = filter(None, map(jumps_told, dataset.records))
+    return without_spikes(replace(dataset, notes=(*dataset.notes, *told)))
+
+
+def jumps_told(record: Record) -> str:
+    """Where the output of a record jumps, and what helps; empty without any."""
+    words = jumps_in_words(record)
+    return words and (
+        f"{words} `diagnose` takes what comes after for a record of its own; so does `fit` with --effect "
+        f"{registry.RECORD_OFFSET}, which gives it an offset of its own."
+    )
