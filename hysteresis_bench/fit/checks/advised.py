@@ -1,4 +1,4 @@
-"""What a law says about the records, with the effects that are around it."""
+"""What is said about the records that are fitted: where they jump, and what the law says, with effects around it."""
 
 from __future__ import annotations
 
@@ -9,17 +9,18 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
+from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.signals import Record
 
 
 def advice_with(model: Model, effects: Collection[str], records: Sequence[Record]) -> tuple[str, ...]:
-    """The model's advice on the records; where an effect has the offset, as if the records had none.
+    """Jumps of the records, and the model's advice on them; where an effect has the offset, as if they had none.
 
     effects : by name
     """
     if not {*registry.OFFSETS}.isdisjoint(effects):
         records = [_without_offset(record) for record in records]
-    return model.advice(records)
+    return (*filter(None, map(jumps_told, records)), *model.advice(records))
 
 
 def _without_offset(record: Record) -> Record:

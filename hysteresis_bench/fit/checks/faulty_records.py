@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import replace
 
 from hysteresis_bench import registry
 from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
@@ -12,12 +11,9 @@ from hysteresis_bench.signals import Dataset, Record
 
 
 def without_faults(dataset: Dataset, effects: Collection[str] = (registry.RECORD_OFFSET,)) -> Dataset:
-    """The data set that is fitted with these effects, by name, and a note on every fault. Jumps are only told where no
-    effect gives every record an offset of its own. They come first: a step would be taken for half of a spike."""
-    if registry.RECORD_OFFSET in effects:
-        return without_spikes(parted_at_jumps(dataset))
-    told = filter(None, map(jumps_told, dataset.records))
-    return without_spikes(replace(dataset, notes=(*dataset.notes, *told)))
+    """The data set that is fitted with these effects, by name, and a note on every fault that is mended: jumps only
+    where an effect gives every record an offset of its own, and first, as a step would be taken for half of a spike."""
+    return without_spikes(parted_at_jumps(dataset) if registry.RECORD_OFFSET in effects else dataset)
 
 
 def jumps_told(record: Record) -> str:
