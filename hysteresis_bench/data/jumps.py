@@ -126,7 +126,7 @@ def _parts(record: Record, found: Array) -> list[Record]:
     kept = [(low, high) for low, high in pairwise(borders) if high - low >= FEWEST]
     if not found.size or not kept:
         return [record]
-    names = [record.name, *(f"{record.name} from {record.time[low]:.6g}" for low, _ in kept[1:])]
+    names = [record.name, *(f"{record.name} from {record.time[low]:.12g}" for low, _ in kept[1:])]
     risen = np.zeros(record.time.size)
     for sample in found.tolist():
         risen[sample:] += _height(record, sample)

@@ -68,6 +68,11 @@ def test_what_comes_after_is_a_record_with_all_before_it_as_history():
     assert (again.names, again.notes) == (data.names, data.notes)
 
 
+def test_parts_have_names_of_their_own_at_a_clock_of_many_digits():
+    record = slipped((AT, 0.8), (AT + 60, 0.8), time=1.7e9 + TIME)
+    assert len({*parted_at_jumps(Dataset((record,))).names}) == 3
+
+
 def test_a_part_too_short_to_be_fitted_is_left_out():
     late, early = TIME.size - FEWEST // 2, 2 * SIDE + 25
     only = parted_at_jumps(Dataset((slipped((late, 0.8)),))).records
