@@ -90,6 +90,14 @@ EFFECTS = {
     "input-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
     "lag-curve-after": {"bend": 3.0, "falling_fast": 0.05, "falling": 0.02, "rising": 0.01, "rising_fast": 0.0},
     "lag-curve-before": {"bend": 3.0, "falling_fast": 0.01, "falling": 0.02, "rising": 0.0, "rising_fast": 0.05},
+    "lag-with-level-after": {
+        "bottom": -2.5, "top": 2.0, "time_constant_lowest": 0.02, "time_constant_low": 0.0, "time_constant_middle": 0.01, "time_constant_high": 0.03,
+        "time_constant_highest": 0.05,
+    },
+    "lag-with-level-before": {
+        "bottom": -2.5, "top": 2.0, "time_constant_lowest": 0.02, "time_constant_low": 0.0, "time_constant_middle": 0.01, "time_constant_high": 0.03,
+        "time_constant_highest": 0.05,
+    },
     "lags-after": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "lags-before": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "leakage-curve": {"largest": 3.0, **{f"current{k}": 0.5 / k for k in range(1, 8)}},
