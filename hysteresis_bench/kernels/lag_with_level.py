@@ -19,6 +19,11 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.columns import given_out, taken_in
+from hysteresis_bench.kernels.elementary import exponential_less_1
+from hysteresis_bench.kernels.lanes import LANES
+
+LEVELS = 5
 
 LEAST = 1e-9
 """Of the step, the shortest time constant: beside levels that lag, one of less counts as this and leaves no trace."""
@@ -31,31 +36,60 @@ PARTS = 64
 """Of a step, at most."""
 
 
-@njit(inline="always", error_model="numpy")
-def _time_constant(v, low, scale, constants):  # type: ignore[no-untyped-def]
-    """At a level; scale : pieces over the range of the levels"""
-    place = (v - low) * scale
-    tau = constants[0]
-    for k in range(1, constants.size):
-        tau += (constants[k] - constants[k - 1]) * min(max(place - (k - 1), 0.0), 1.0)
+# Rows of a group: the lowest level, levels a unit, time constants; then what is followed, what follows, and by how much
+# holding tau at its first value would make a difference.
+LOWEST, SCALE, CONSTANTS = 0, LANES, 2 * LANES
+BEFORE, NOW, V, AFTER, WRONG = ((2 + LEVELS + row) * LANES for row in range(5))
+ROWS = 7 + LEVELS
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _time_constant(s, j, v):  # type: ignore[no-untyped-def]
+    """At a level."""
+    place = (v - s[LOWEST + j]) * s[SCALE + j]
+    tau = s[CONSTANTS + j]
+    for k in range(LEVELS - 1):
+        more = s[CONSTANTS + (k + 1) * LANES + j] - s[CONSTANTS + k * LANES + j]
+        tau += more * min(max(place - k, 0.0), 1.0)
     return tau
 
 
-@njit(inline="always", error_model="numpy")
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _followed(v, u, slope, step, tau):  # type: ignore[no-untyped-def]
     """After a step with a time constant that is held, from a signal that begins at u."""
-    x = step / tau
-    decay = math.expm1(-x)
+    decay = exponential_less_1(-step / tau)
     return v - decay * (u - v) + slope * (step + tau * decay)
 
 
-@njit(inline="always", error_model="numpy")
-def _moved(v, u, slope, step, least, low, scale, constants):  # type: ignore[no-untyped-def]
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _moved(s, j, v, u, slope, step, least):  # type: ignore[no-untyped-def]
     """After a step with the time constant in the middle of it, and with that at its beginning."""
-    first = max(_time_constant(v, low, scale, constants), least)
+    first = max(_time_constant(s, j, v), least)
     middle = _followed(v, u, slope, 0.5 * step, first)
-    tau = max(_time_constant(middle, low, scale, constants), least)
+    tau = max(_time_constant(s, j, middle), least)
     return _followed(v, u, slope, step, tau), _followed(v, u, slope, step, first)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _moved_together(s: Array, step: float) -> None:
+    """V of a group after a step, in one."""
+    for j in range(min(LANES, s.size & -LANES)):
+        slope = (s[NOW + j] - s[BEFORE + j]) / step
+        after, crude = _moved(s, j, s[V + j], s[BEFORE + j], slope, step, LEAST * step)
+        s[WRONG + j] = abs(after - crude) * s[SCALE + j] / (LEVELS - 1)
+        s[AFTER + j] = after
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _moved_in_parts(s: Array, step: float) -> None:
+    """The same, for those lanes of which one step is too long."""
+    for j in range(LANES):
+        if s[WRONG + j] > SMALL:
+            parts = min(math.ceil(math.sqrt(s[WRONG + j] / SMALL)), PARTS)
+            slope, part, v = (s[NOW + j] - s[BEFORE + j]) / step, step / parts, s[V + j]
+            for k in range(parts):
+                v, _ = _moved(s, j, v, s[BEFORE + j] + slope * part * k, slope, part, LEAST * step)
+            s[AFTER + j] = v
 
 
 @njit(cache=True, error_model="numpy")
@@ -65,31 +99,31 @@ def lag_with_level(time: Array, u: Array, lowest: Array, highest: Array, constan
     time : float64[samples]                               strictly increasing, any spacing
     u : float64[samples, 1] or float64[samples, swarm]    linear between its samples
     lowest, highest : float64[swarm]                      the outer levels, lowest < highest, unit of u
-    constants : float64[levels, swarm]                    tau >= 0 at evenly spaced levels, unit of time; all 0: v = u
+    constants : float64[5, swarm]                         tau >= 0 at evenly spaced levels, unit of time; all 0: v = u
     -> float64[samples, swarm]                            v, unit of u, within the range of u
     """
-    samples, columns, swarm = u.shape[0], u.shape[1], lowest.size
+    samples, swarm = u.shape[0], lowest.size
     v = np.empty((samples, swarm))
-    for j in range(swarm):
-        column = j if columns > 1 else 0
-        own = constants[:, j].copy()
-        lags = np.any(own > 0.0)
-        scale = (own.size - 1) / (highest[j] - lowest[j])
-        now = u[0, column]
-        v[0, j] = now
+    for first in range(0, swarm, LANES):
+        used = min(LANES, swarm - first)
+        s = np.zeros(ROWS * LANES)
+        for j in range(LANES):
+            column = first + min(j, used - 1)
+            s[LOWEST + j], s[SCALE + j] = lowest[column], (LEVELS - 1) / (highest[column] - lowest[column])
+            for k in range(LEVELS):
+                s[CONSTANTS + k * LANES + j] = constants[k, column]
+        taken_in(s, NOW, u, 0, first, used)
+        taken_in(s, AFTER, u, 0, first, used)
+        given_out(s, AFTER, v, 0, first, used)
         for i in range(1, samples):
-            if lags:
-                whole, before = time[i] - time[i - 1], u[i - 1, column]
-                slope, least = (u[i, column] - before) / whole, LEAST * whole
-                after, crude = _moved(now, before, slope, whole, least, lowest[j], scale, own)
-                wrong = abs(after - crude) * scale / (own.size - 1)
-                parts = min(math.ceil(math.sqrt(wrong / SMALL)), PARTS)
-                if parts > 1:
-                    step, after = whole / parts, now
-                    for k in range(parts):
-                        after, _ = _moved(after, before + slope * step * k, slope, step, least, lowest[j], scale, own)
-                now = after
-                v[i, j] = now
-            else:
-                v[i, j] = u[i, column]
+            step = time[i] - time[i - 1]
+            for j in range(LANES):
+                s[BEFORE + j], s[V + j] = s[NOW + j], s[AFTER + j]
+            taken_in(s, NOW, u, i, first, used)
+            _moved_together(s, step)
+            _moved_in_parts(s, step)
+            given_out(s, AFTER, v, i, first, used)
+    for j in range(swarm):
+        if not np.any(constants[:, j] > 0.0):
+            v[:, j] = u[:, j if u.shape[1] > 1 else 0]
     return v
