@@ -57,6 +57,7 @@ LAWS = {
     },
 }  # fmt: skip
 BENDS = {f"bend{k}": 0.1 * (-1) ** k for k in (0, 1, 2, 3, 5, 6, 7)}
+LEVELS = ("lowest", "low", "middle", "high", "highest")
 WEIGHTS = {f"weight{k}": (-1) ** k * 0.1 * k for k in range(1, 8)}
 EFFECTS = {
     "asymmetry": {"curvature": 0.03},
@@ -91,12 +92,12 @@ EFFECTS = {
     "lag-curve-after": {"bend": 3.0, "falling_fast": 0.05, "falling": 0.02, "rising": 0.01, "rising_fast": 0.0},
     "lag-curve-before": {"bend": 3.0, "falling_fast": 0.01, "falling": 0.02, "rising": 0.0, "rising_fast": 0.05},
     "lag-with-level-after": {
-        "bottom": -2.5, "top": 2.0, "time_constant_lowest": 0.02, "time_constant_low": 0.0, "time_constant_middle": 0.01, "time_constant_high": 0.03,
-        "time_constant_highest": 0.05,
+        "bottom": -2.5, "top": 2.0,
+        **{f"time_constant_{k}": v for k, v in zip(LEVELS, (0.02, 0.0, 0.01, 0.03, 0.05), strict=True)},
     },
     "lag-with-level-before": {
-        "bottom": -2.5, "top": 2.0, "time_constant_lowest": 0.02, "time_constant_low": 0.0, "time_constant_middle": 0.01, "time_constant_high": 0.03,
-        "time_constant_highest": 0.05,
+        "bottom": -2.5, "top": 2.0,
+        **{f"time_constant_{k}": v for k, v in zip(LEVELS, (0.02, 0.0, 0.01, 0.03, 0.05), strict=True)},
     },
     "lags-after": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "lags-before": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},

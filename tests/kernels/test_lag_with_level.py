@@ -1,5 +1,7 @@
 """A lag with a time constant of its own at every level, against a tight ODE solution and the first-order lag."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
@@ -20,7 +22,7 @@ def solved(time, u, constants):
         return (np.interp(t, time, u) - v) / np.interp(v, LEVELS, constants)
 
     parts = [np.array([u[0]])]
-    for ends in zip(time, time[1:], strict=False):  # the input bends at every sample
+    for ends in pairwise(time):  # the input bends at every sample
         found = solve_ivp(slope, ends, parts[-1], rtol=1e-11, atol=1e-12, method="LSODA")
         parts.append(found.y[:, -1])
     return np.concatenate(parts)

@@ -19,6 +19,9 @@ CONSTANTS = ("lowest", "low", "middle", "high", "highest")
 
 RANGES = ("bottom", "top")
 
+ACCURACY = 2e-4
+"""Of the kernel, which cuts steps by an estimate of the error."""
+
 LONGEST = 0.25
 """Of the longest record, the longest time constant."""
 
