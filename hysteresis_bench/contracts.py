@@ -143,8 +143,8 @@ class Effect(ABC):
     estimates: ClassVar[int] = 0
     """How many values it estimates anew on every record, beside its parameters."""
     accuracy: ClassVar[float] = 1e-9
-    """By how much more samples of the same line may change the answer, of signals with ranges of about 1: rounding where
-    it is exact for signals that are linear between their samples."""
+    """By how much more samples of the same line may change the answer, of signals with ranges of about 1: rounding
+    where it is exact for signals that are linear between their samples."""
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
     """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
     other_forms: ClassVar[tuple[HiddenForm, ...]] = ()
