@@ -150,17 +150,27 @@ def test_saturation_comes_near_to_tanh_and_to_a_clip():
 
 def test_a_rigid_stop_cuts_off_and_an_elastic_one_bends():
     signal = record().signal
-    cut = applied("stop-above", signal, level=0.5, share=1.0)
+    cut = applied("stop-above", signal, level=0.5, share=1.0, rounding=0.0)
     np.testing.assert_allclose(cut, np.minimum(2.0 * DRIVE, 0.5), atol=1e-15)
-    bent = applied("stop-above", signal, level=0.5, share=0.25)
+    bent = applied("stop-above", signal, level=0.5, share=0.25, rounding=0.0)
     np.testing.assert_allclose(bent, np.where(2.0 * DRIVE > 0.5, 0.5 + 1.5 * (DRIVE - 0.25), 2.0 * DRIVE), atol=1e-15)
+
+
+def test_a_rounded_stop_is_a_hyperbola_between_its_straight_ways():
+    drive = np.linspace(-1.0, 1.0, 201)
+    signal, level, share, width = Signal(drive, drive[:, None]), 0.5, 0.8, 0.3
+    held = (2.0 * drive - applied("stop-above", signal, level=level, share=share, rounding=width)) / share
+    np.testing.assert_allclose(held * (held - 2.0 * drive + level), width**2 / 4.0, atol=1e-14)
+    assert np.interp(0.25, drive, held) == pytest.approx(0.5 * width)  # at the level
 
 
 def test_a_stop_below_is_one_above_upside_down():
     signal = record().signal
-    below = applied("stop-below", signal, level=-0.3, share=0.7)
+    below = applied("stop-below", signal, level=-0.3, share=0.7, rounding=0.2)
     upside_down = signal.with_input(-signal.input)
-    np.testing.assert_allclose(below, -applied("stop-above", upside_down, level=0.3, share=0.7), atol=1e-15)
+    np.testing.assert_allclose(
+        below, -applied("stop-above", upside_down, level=0.3, share=0.7, rounding=0.2), atol=1e-15
+    )
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,11 @@
-"""An end stop on one side of the output of a swarm, in place."""
+"""An end stop on one side of the output of a swarm, in place.
+
+What passes the level, x = max(d, 0) of the distance d beyond it, is rounded to a hyperbola: (d + sqrt(d² + w²)) / 2.
+"""
 
 from __future__ import annotations
+
+import math
 
 from numba import njit
 
@@ -8,23 +13,26 @@ from hysteresis_bench.arrays import Array
 
 
 @njit(cache=True, error_model="numpy")
-def stop_above(y: Array, level: Array, share: Array) -> None:
-    """y - share max(y - level, 0) in place of y.
+def stop_above(y: Array, level: Array, share: Array, rounding: Array) -> None:
+    """y - share x in place of y, x what passes the level.
 
     y : float64[samples, swarm]     overwritten
     level : float64[swarm]          unit of y
     share : float64[swarm]          0 to 1 of what passes the level is held back; 0: y to the last bit
+    rounding : float64[swarm]       w >= 0, unit of y; 0: a corner
     """
     samples, swarm = y.shape
     for i in range(samples):
         for j in range(swarm):
-            y[i, j] -= share[j] * max(y[i, j] - level[j], 0.0)
+            beyond = y[i, j] - level[j]
+            y[i, j] -= 0.5 * share[j] * (beyond + math.sqrt(beyond * beyond + rounding[j] * rounding[j]))
 
 
 @njit(cache=True, error_model="numpy")
-def stop_below(y: Array, level: Array, share: Array) -> None:
-    """y + share max(level - y, 0) in place of y; the arguments as in `stop_above`."""
+def stop_below(y: Array, level: Array, share: Array, rounding: Array) -> None:
+    """y + share x in place of y, x what falls short of the level; the arguments as in `stop_above`."""
     samples, swarm = y.shape
     for i in range(samples):
         for j in range(swarm):
-            y[i, j] += share[j] * max(level[j] - y[i, j], 0.0)
+            short = level[j] - y[i, j]
+            y[i, j] += 0.5 * share[j] * (short + math.sqrt(short * short + rounding[j] * rounding[j]))

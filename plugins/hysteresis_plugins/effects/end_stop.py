@@ -18,6 +18,13 @@ from hysteresis_plugins.effects._ranges import offset, output_span
 LEVEL = 0.4
 """Of the largest response, where made data meet the stop, so that smaller drives and one-sided ones reach it."""
 
+SHARP, WIDE = 1e-3, 0.5
+"""Of the measured range: a corner that is rounded over less leaves no trace, over more it is a curve of the whole
+loop."""
+
+BEGUN = (0.01, 0.1)
+"""Of the measured range, roundings from which a search begins."""
+
 
 def _elastic(inner: Response, u: Array, hiding: Hiding) -> Array:
     y = inner(u)
@@ -51,11 +58,13 @@ def _from_below(form: HiddenForm) -> HiddenForm:
 
 @dataclass(frozen=True)
 class StopAbove(Effect):
-    """Above a level the output goes on by a share less: a bilinear contact [1].
+    """Above a level the output goes on by a share less: a bilinear contact [1], met at once or gradually.
 
-    y = x - share max(x - level, 0), x the response. share = 1 is a rigid stop, or the end of an instrument's range;
-    less of it is an elastic one, share = contact stiffness / (contact stiffness + own stiffness). Ours: the box goes a
-    quarter beyond 1, so that a rigid one does not lie at its edge.
+    y = x - share (d + sqrt(d² + rounding²)) / 2, d = x - level, x the response; with no rounding x - share max(d, 0).
+    share = 1 is a rigid stop, or the end of an instrument's range; less of it is an elastic one, share = contact
+    stiffness / (contact stiffness + own stiffness). Ours: the box of the share goes a quarter beyond 1, so that a rigid
+    one does not lie at its edge; the corner is rounded to a hyperbola, as of a pad or of an instrument that gives way
+    gradually. The box of the rounding is logarithmic and ends above its null 0, at a width that leaves no trace.
 
     [1] S. W. Shaw, P. J. Holmes, A periodically forced piecewise linear oscillator, Journal of Sound and Vibration 90
     (1983) 129-155.
@@ -75,29 +84,33 @@ class StopAbove(Effect):
     parameters = (
         Parameter("level", -1.0, 1.0, "{output}", meaning="of the response at which the stop is met"),
         Parameter("share", 0.0, 1.25, null=0.0, meaning="of what would pass the stop that it holds back"),
+        Parameter("rounding", 1e-3, 1.0, "{output}", "log", null=0.0, meaning="width over which the stop is met"),
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.effects.end_stop import stop_above
 
         output = own(inner(signal), signal)
-        stop_above(output, p.level, p.share)
+        stop_above(output, p.level, p.share, p.rounding)
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Levels in four fifths of the measured range, wherever its zero may be."""
-        level, share = self.parameters
+        """Levels in four fifths of the measured range, wherever its zero may be; corners rounded over a thousandth to
+        a half of it."""
+        level, share, rounding = self.parameters
+        span = output_span(records) or 1.0
         y = _outputs(records)
         found = [at for way in self.levels for at in _of_the_response(records, float(np.min(y) + way * np.ptp(y)))]
-        return level.within(min(found), max(found)), share
+        return level.within(min(found), max(found)), share, rounding.within(SHARP * span, WIDE * span)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return "the output never moves" if output_span(records) == 0.0 else ""
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """A rigid stop where the outputs end that it would hold back."""
+        """A rigid stop where the outputs end that it would hold back, met at once or gradually."""
         levels = _of_the_response(records, float(np.quantile(_outputs(records), self.held_back)))
-        return [{"level": level, "share": 1.0} for level in levels]
+        span = output_span(records) or 1.0
+        return [{"level": level, "share": 1.0, "rounding": w * span} for level in levels for w in BEGUN]
 
 
 @dataclass(frozen=True)
@@ -113,7 +126,7 @@ class StopBelow(StopAbove):
         from hysteresis_bench.kernels.effects.end_stop import stop_below
 
         output = own(inner(signal), signal)
-        stop_below(output, p.level, p.share)
+        stop_below(output, p.level, p.share, p.rounding)
         return output
 
 
