@@ -258,15 +258,14 @@ class Selection:
         return dict(zip(names, self._ask([("extended", hypothesis, name, other) for name in names], keys), strict=True))
 
     def _sought(self, hypotheses: dict[str, Hypothesis]) -> dict[str, Hypothesis]:
-        """The contenders are fitted again from other starts, where there is more than one effect to be bent."""
+        """The contenders are fitted again from other starts: a system is as good as its best fit, however it was come
+        upon."""
         least = min((hypothesis.rmse for hypothesis in hypotheses.values()), default=0.0)
         ranked = sorted(hypotheses, key=lambda name: hypotheses[name].rmse)
         close = [
             name
             for name in ranked[:CONTENDERS]
-            if hypotheses[name].rmse < WITHIN * least
-            and len(self.adopted(hypotheses[name])) > 1
-            and hypotheses[name].names not in self.sought
+            if hypotheses[name].rmse < WITHIN * least and hypotheses[name].names not in self.sought
         ]
         again = self.workers.map([("refitted", hypotheses[name]) for name in close])
         self.known |= {hypothesis.names: hypothesis for hypothesis in again}
