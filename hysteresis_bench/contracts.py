@@ -48,7 +48,7 @@ return-point : after an inner loop the output is what it was;  congruent : inner
 
 @dataclass(frozen=True)
 class Example:
-    """With what a model makes data of its own, when effects are hidden in them.
+    """With what a model makes data of its own, when effects are hidden in them; None where it is not asked to.
 
     amplitude : of the drive;  parameters : values by name;  stream : the model's own random numbers, unlike those of
     every other model, so that another model changes no draw;  without : effects that no data can be made with
@@ -79,7 +79,6 @@ class Model(ABC):
     senses: ClassVar[tuple[int, ...]] = (-1, 1)
     """Of its loops, output over input: 1 where they can run anticlockwise, -1 clockwise."""
     example: ClassVar[Example | None] = None
-    """With what it makes data, where it may be asked to."""
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:
@@ -120,8 +119,7 @@ class Hiding:
 
 Response: TypeAlias = Callable[[Array], Array]
 HiddenForm: TypeAlias = Callable[[Response, Array, Hiding], Array]
-"""form(inner, u, hiding) -> output: as Effect.apply, for one input (samples,) and without the effect's own code, by
-another formula or another discretisation. inner(u) -> output, (samples,) both : the response of what is wrapped."""
+"""form(inner, u, hiding) -> output, (samples,), as Effect.apply by other formulas and code;  inner : what is wrapped"""
 
 
 class Effect(ABC):
@@ -143,8 +141,7 @@ class Effect(ABC):
     estimates: ClassVar[int] = 0
     """How many values it estimates anew on every record, beside its parameters."""
     accuracy: ClassVar[float] = 1e-9
-    """By how much more samples of the same line may change the answer, of signals with ranges of about 1: rounding
-    where it is exact for signals that are linear between their samples."""
+    """By how much more samples of the same line may change the answer, of signals with ranges of about 1."""
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
     """Formulas by which made data hide it. What the first one changes vanishes with the strength."""
     other_forms: ClassVar[tuple[HiddenForm, ...]] = ()

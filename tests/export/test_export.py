@@ -57,7 +57,15 @@ LAWS = {
     },
 }  # fmt: skip
 BENDS = {f"bend{k}": 0.1 * (-1) ** k for k in (0, 1, 2, 3, 5, 6, 7)}
-LEVELS = ("lowest", "low", "middle", "high", "highest")
+LEVELS = {
+    "bottom": -2.5,
+    "top": 2.0,
+    "time_constant": 0.02,
+    "at_lowest": 2.0,
+    "at_low": 0.5,
+    "at_high": 1.5,
+    "at_highest": 3.0,
+}
 WEIGHTS = {f"weight{k}": (-1) ** k * 0.1 * k for k in range(1, 8)}
 EFFECTS = {
     "asymmetry": {"curvature": 0.03},
@@ -75,8 +83,8 @@ EFFECTS = {
     "record-drift": {},
     "record-offset": {},
     "resonance": {"period": 0.02, "damping": 0.2},
-    "stop-above": {"level": 0.6, "share": 0.8},
-    "stop-below": {"level": -0.4, "share": 1.0},
+    "stop-above": {"level": 0.6, "share": 0.8, "rounding": 0.1},
+    "stop-below": {"level": -0.4, "share": 1.0, "rounding": 0.0},
     "saturation": {"inverse_level": 0.25, "sharpness": 3.0},
     "second-order-input-lag": {"time_constant": 0.01, "damping": 0.9},
     "second-order-lag": {"time_constant": 0.02, "damping": 1.4},
@@ -91,14 +99,8 @@ EFFECTS = {
     "input-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
     "lag-curve-after": {"bend": 3.0, "falling_fast": 0.05, "falling": 0.02, "rising": 0.01, "rising_fast": 0.0},
     "lag-curve-before": {"bend": 3.0, "falling_fast": 0.01, "falling": 0.02, "rising": 0.0, "rising_fast": 0.05},
-    "lag-with-level-after": {
-        "bottom": -2.5, "top": 2.0,
-        **{f"time_constant_{k}": v for k, v in zip(LEVELS, (0.02, 0.0, 0.01, 0.03, 0.05), strict=True)},
-    },
-    "lag-with-level-before": {
-        "bottom": -2.5, "top": 2.0,
-        **{f"time_constant_{k}": v for k, v in zip(LEVELS, (0.02, 0.0, 0.01, 0.03, 0.05), strict=True)},
-    },
+    "lag-with-level-after": LEVELS,
+    "lag-with-level-before": LEVELS,
     "lags-after": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "lags-before": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "leakage-curve": {"largest": 3.0, **{f"current{k}": 0.5 / k for k in range(1, 8)}},

@@ -14,13 +14,17 @@ from hysteresis_bench.signals import Record, read_only
 from hysteresis_plugins.effects._ranges import longest
 from hysteresis_plugins.effects.free._spline import POINTS, narrow
 
-CONSTANTS = ("lowest", "low", "middle", "high", "highest")
-"""Levels at which there is a time constant, in the order of the kernel."""
+LEVELS = ("lowest", "low", "middle", "high", "highest")
+"""At which there is a time constant, in the order of the kernel."""
+
+MOST = 4.0
+"""Times the time constant in the middle, and a share of it, up to which it goes elsewhere."""
 
 RANGES = ("bottom", "top")
+LIMITS = tuple(f"at_{name}" for name in LEVELS if name != "middle")
 
-ACCURACY = 2e-4
-"""Of the kernel, which cuts steps by an estimate of the error."""
+ACCURACY = 5e-3
+"""Of the kernel, on steps of a tenth of the range: it cuts them by an estimate of the error."""
 
 LONGEST = 0.25
 """Of the longest record, the longest time constant."""
@@ -31,16 +35,19 @@ def parameters(unit: str) -> tuple[Parameter, ...]:
     return (
         Parameter("bottom", -2.0, -1.0, unit, meaning="the lowest level"),
         Parameter("top", 1.0, 2.0, unit, meaning="the highest level"),
+        Parameter("time_constant", 0.0, 10.0, "{time}", null=0.0, meaning="in the middle of the levels"),
         *(
-            Parameter(f"time_constant_{name}", 0.0, 10.0, "{time}", null=0.0, meaning=f"at the {name} level")
-            for name in CONSTANTS
+            Parameter(f"at_{name}", 1.0 / MOST, MOST, "1", "log", null=1.0, meaning=f"{name} level, over the middle")
+            for name in LEVELS
+            if name != "middle"
         ),
     )
 
 
 def constants(p: Any) -> Array:
     """(5, swarm)"""
-    return np.stack([getattr(p, f"time_constant_{name}") for name in CONSTANTS])
+    shares = [1.0 if name == "middle" else getattr(p, f"at_{name}") for name in LEVELS]
+    return np.stack([p.time_constant * share for share in shares])
 
 
 def behind(time: Array, values: Array, p: Any) -> Array:
@@ -52,16 +59,17 @@ def behind(time: Array, values: Array, p: Any) -> Array:
 
 def box(own: Sequence[Parameter], records: Sequence[Record], low: float, high: float) -> tuple[Parameter, ...]:
     """low, high : the range of what lags"""
-    bottom, top, *others = own
+    bottom, top, time_constant, *others = own
     span = (high - low) or 1.0
     return (
         narrow(bottom, low, span),
         narrow(top, high, span),
-        *(one.within(0.0, LONGEST * longest(records)) for one in others),
+        time_constant.within(0.0, LONGEST * longest(records)),
+        *others,
     )
 
 
 def curve(p: Any, of: str, unit: str) -> Curve:
-    levels = np.linspace(p.bottom, p.top, len(CONSTANTS))
+    levels = np.linspace(p.bottom, p.top, len(LEVELS))
     level = np.linspace(p.bottom, p.top, POINTS)
     return Curve(level, np.interp(level, levels, constants(p)), f"level of {of}", "time constant", unit, "{time}")

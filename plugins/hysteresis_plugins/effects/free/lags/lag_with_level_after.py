@@ -12,7 +12,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import offset, unresolved_curve
 from hysteresis_plugins.effects.free._spline import extremes
-from hysteresis_plugins.effects.free.lags._level import ACCURACY, RANGES, behind, box, curve, parameters
+from hysteresis_plugins.effects.free.lags._level import ACCURACY, LIMITS, RANGES, behind, box, curve, parameters
 
 
 @dataclass(frozen=True)
@@ -29,6 +29,7 @@ class LagWithLevelAfter(FreeForm):
     acts = "output"
     family = "dynamics after the law"
     ranges = RANGES
+    limits = LIMITS
     accuracy = ACCURACY
     parameters = parameters("{output}")
 

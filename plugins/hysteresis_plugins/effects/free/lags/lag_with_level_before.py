@@ -14,7 +14,16 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import unresolved_curve
 from hysteresis_plugins.effects.free._spline import extremes
-from hysteresis_plugins.effects.free.lags._level import ACCURACY, RANGES, behind, box, constants, curve, parameters
+from hysteresis_plugins.effects.free.lags._level import (
+    ACCURACY,
+    LIMITS,
+    RANGES,
+    behind,
+    box,
+    constants,
+    curve,
+    parameters,
+)
 
 
 @dataclass(frozen=True)
@@ -38,6 +47,7 @@ class LagWithLevelBefore(FreeForm):
         ),
     }
     ranges = RANGES
+    limits = LIMITS
     accuracy = ACCURACY
     parameters = parameters("{input}")
 
