@@ -9,6 +9,8 @@ curve has joined, the search for names goes on from there.
 
 from __future__ import annotations
 
+from itertools import combinations
+
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, MISFIT, NAMED, Selection
@@ -39,7 +41,7 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         if fits and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
-    current = _in_place_of_offsets(selection, current)
+    current = _in_place_of_two(selection, _in_place_of_offsets(selection, current))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
 
@@ -58,6 +60,21 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
     found = [one for one in tried if one.rmse <= current.rmse and one.cv_rmse <= current.cv_rmse]
     clear = [one for one in found if _clearly(selection, without, one)]
     return selection.workers.map([("extended", selection.simplest(clear), offset)])[0] if clear else current
+
+
+def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
+    """Two formulas may come near the noise together where one effect has another formula: a free form of the family of
+    one of them that does clearly better than both on samples left out is one claim less."""
+    effect, adopted = selection.fitter.stack.effect, selection.adopted(current)
+    forms = [form for form in selection.forms if form not in current.names and not effect(form).estimates]
+    tried = []
+    for first, second in combinations([name for name in adopted if name not in selection.forms], 2):
+        families = {effect(first).family, effect(second).family}
+        asked = [form for form in forms if effect(form).family in families]
+        smaller = selection.without(selection.without(current, first), second) if asked else current
+        tried += selection.workers.map([("extended", smaller, form, current.values) for form in asked])
+    clear = [one for one in tried if advantage(one.left_out, current.left_out, selection.fitter.blocks) > CLEAR]
+    return selection.workers.map([("refitted", selection.simplest(clear))])[0] if clear else current
 
 
 def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], most: int) -> Hypothesis:

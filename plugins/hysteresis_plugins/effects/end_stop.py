@@ -18,9 +18,9 @@ from hysteresis_plugins.effects._ranges import offset, output_span
 LEVEL = 0.4
 """Of the largest response, where made data meet the stop, so that smaller drives and one-sided ones reach it."""
 
-SHARP, WIDE = 1e-3, 0.5
-"""Of the measured range: a corner that is rounded over less leaves no trace, over more it is a curve of the whole
-loop."""
+SHARP, WIDE = 1e-3, 0.125
+"""Of the measured range: a corner that is rounded over less leaves no trace, over more it is a saturation. Stops by
+other formulas were found at 0.04 to 0.08; with twice it one saturation by another formula was told as a stop."""
 
 BEGUN = (0.01, 0.1)
 """Of the measured range, roundings from which a search begins."""
@@ -96,7 +96,7 @@ class StopAbove(Effect):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Levels in four fifths of the measured range, wherever its zero may be; corners rounded over a thousandth to
-        a half of it."""
+        an eighth of it."""
         level, share, rounding = self.parameters
         span = output_span(records) or 1.0
         y = _outputs(records)

@@ -11,7 +11,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.free_forms import Curve
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, read_only
-from hysteresis_plugins.effects._ranges import longest
+from hysteresis_plugins.effects._ranges import finest_step, longest
 from hysteresis_plugins.effects.free._spline import POINTS, narrow
 
 LEVELS = ("lowest", "low", "middle", "high", "highest")
@@ -25,6 +25,9 @@ LIMITS = tuple(f"at_{name}" for name in LEVELS if name != "middle")
 
 ACCURACY = 5e-3
 """Of the kernel, on steps of a tenth of the range: it cuts them by an estimate of the error."""
+
+STARTS = 9
+"""Time constants from which a search begins, with the longest one: where the lag is none, its levels have no slope."""
 
 LONGEST = 0.25
 """Of the longest record, the longest time constant."""
@@ -67,6 +70,13 @@ def box(own: Sequence[Parameter], records: Sequence[Record], low: float, high: f
         time_constant.within(0.0, LONGEST * longest(records)),
         *others,
     )
+
+
+def starts(records: Sequence[Record]) -> list[dict[str, float]]:
+    """One time constant at all levels, from a sampling step on."""
+    known = {f"at_{name}": 1.0 for name in LEVELS if name != "middle"}
+    times = np.geomspace(finest_step(records), LONGEST * longest(records), STARTS)
+    return [{"time_constant": float(time), **known} for time in times[:-1]]
 
 
 def curve(p: Any, of: str, unit: str) -> Curve:

@@ -12,7 +12,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import offset, unresolved_curve
 from hysteresis_plugins.effects.free._spline import extremes
-from hysteresis_plugins.effects.free.lags._level import ACCURACY, LIMITS, RANGES, behind, box, curve, parameters
+from hysteresis_plugins.effects.free.lags._level import ACCURACY, LIMITS, RANGES, behind, box, curve, parameters, starts
 
 
 @dataclass(frozen=True)
@@ -44,6 +44,9 @@ class LagWithLevelAfter(FreeForm):
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return unresolved_curve(records)
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+        return starts(records)
 
     def curve(self, p: Any) -> Curve:
         return curve(p, "the output", "{output}")

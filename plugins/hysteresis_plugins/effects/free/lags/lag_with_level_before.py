@@ -23,6 +23,7 @@ from hysteresis_plugins.effects.free.lags._level import (
     constants,
     curve,
     parameters,
+    starts,
 )
 
 
@@ -62,6 +63,9 @@ class LagWithLevelBefore(FreeForm):
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return unresolved_curve(records)
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+        return starts(records)
 
     def curve(self, p: Any) -> Curve:
         return curve(p, "what acts", "{input}")
