@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
+from hysteresis_bench.diagnosis.doubt.carrying import carrying
 from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
@@ -28,11 +29,13 @@ in 0.9 and in 1.4 times the time."""
 class Doubt:
     """cause : the law that does clearly better;  agreement : of the laws, where none leaves about the noise
     untested : far from the noise, only one excitation speaks for what was adopted, of one amplitude and frequency
+    carrying : what was adopted and carries the loop alone
     """
 
     cause: Cause | None = None
     agreement: Agreement | None = None
     untested: bool = False
+    carrying: tuple[str, ...] = ()
 
     def asks_for(self, adopted: Sequence[str]) -> list[str]:
         """Effects that are needed, and for which nothing alike was adopted."""
@@ -42,7 +45,8 @@ class Doubt:
     def holding(self, adopted: Sequence[str]) -> dict[str, tuple[str, ...]]:
         """Of the adopted effects those that are more than stand-ins for the law, as far as is known, each with what is
         taken in its place around other laws."""
-        if self == Doubt():
+        adopted = [name for name in adopted if name not in self.carrying]
+        if self == Doubt(carrying=self.carrying):
             return {name: () for name in adopted}
         likes = self.agreement.effects if self.agreement else {}
         groups = {name: (needed, *likes.get(needed, ())) for name, needed in self._matched(adopted).items()}
@@ -72,8 +76,9 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     """
     options, stack, asked, floor = question.options, found.thin.stack, question.model, found.selection.floor
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
+    alone = carrying(found)
     if not found.follows or (final.rmse <= MATTERS * floor and not forms_of(final.effects)):
-        return Doubt()
+        return Doubt(carrying=alone)
     few = thinned(views_of(stack.records), SCREENED)
     around = OtherLaws(asked, stack, few, _in_question(found), floor, options.seed)
     jobs = options.jobs or min(4, os.cpu_count() or 1)
@@ -83,13 +88,13 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
         cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
-        if not wrong or not witnesses or (cause and cause.unseen <= MISFIT * floor):
-            return Doubt(cause, untested=untested)
+        if not wrong or not witnesses or (cause and cause.unseen <= MATTERS * floor):
+            return Doubt(cause, untested=untested, carrying=alone)
         (own,) = workers.map([("needy", asked)])
         good = [one.model for one in screened if one.rmse <= own.rmse and is_rate_independent(one.model)]
         needy = workers.map([("needy", name) for name in good])
         shaped = is_rate_independent(asked) and any(is_shape(name) for name in own.effects)
-        return Doubt(cause, agreement(own, needy) if needy or shaped else None, untested)
+        return Doubt(cause, agreement(own, needy) if needy or shaped else None, untested, alone)
 
 
 def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:

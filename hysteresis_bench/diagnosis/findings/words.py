@@ -82,7 +82,8 @@ class Outcome:
     @property
     def unexplained(self) -> bool:
         left = self.left.matters or self.left.louder or self.leaves_much
-        return left or not self.found.follows or not self.carries_over or self.cause is not None
+        wrong = self.cause is not None or bool(self.doubt.carrying)
+        return left or not self.found.follows or not self.carries_over or wrong
 
     @property
     def leaves_much(self) -> bool:
@@ -133,7 +134,7 @@ def headline(outcome: Outcome) -> str:
         said = f"No effect is named, as what helps on what was fitted does not carry over: with it, {moved}"
     elif (outcome.doubt.agreement or outcome.doubt.untested) and outcome.stand_ins:
         said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
-    elif outcome.cause and outcome.stand_ins:
+    elif (outcome.cause or outcome.doubt.carrying) and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
     elif outcome.doubt.agreement:
         said = f"No effect is named: {where} the RMSE is {last.rmse:.3g}{unit}"
@@ -162,6 +163,9 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
         own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
         yield f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
         yield f"{cause.own:.3g}."
+    elif outcome.doubt.carrying:
+        carried = f"{listed(outcome.doubt.carrying)} carries the loop, without which {outcome.model} has next to none:"
+        yield f"{carried} no effect around this law, but another law."
     elif outcome.reaches:
         yield "The law alone does not follow the data, and does with what is around it."
     else:
@@ -177,10 +181,11 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
         yield f"{listed(refused)} would be needed too, but does not help {outcome.model} to predict records left out."
     if outcome.stand_ins:
         alike: dict[str, list[str]] = {}
-        for name in outcome.stand_ins:
+        for name in (one for one in outcome.stand_ins if one not in outcome.doubt.carrying):
             alike.setdefault(agreed.without(name) if agreed else "", []).append(name)
         disputed = [f"{listed(names)} ({reason})" if reason else listed(names) for reason, names in alike.items()]
-        yield f"{', and '.join(disputed)} may stand in for the law."
+        if disputed:
+            yield f"{', and '.join(disputed)} may stand in for the law."
 
 
 def _or_its_rivals(name: str, ties: Sequence[Tie]) -> str:
@@ -245,6 +250,8 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         )
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
+    elif outcome.doubt.carrying:
+        said.append("Ask again without a model: then the law is looked for among all that are known here.")
     if outcome.left.slow and not outcome.cause:
         said.append(
             f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and is "
