@@ -42,7 +42,7 @@ class Group(click.Group):
         from rich.console import Console
         from rich.markup import escape
 
-        Console(stderr=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
+        Console(stderr=True, soft_wrap=True, emoji=False).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
         sys.exit(USER_AT_FAULT)
 
     def invoke(self, context: click.Context) -> Any:

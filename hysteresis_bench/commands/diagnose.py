@@ -88,7 +88,7 @@ def diagnose(
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     check_plot(plot, data, force)
     bench = _bench(measure, seed, prepared) if measure else None
-    dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False)
+    dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False, emoji=False)
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
@@ -97,7 +97,7 @@ def diagnose(
         check_folder(folder, (f"{bench.record_name(dataset)}.csv",), FILE, data, force)
     options = DiagnosisOptions(seed, None, **prepared, accept_terms=accept_terms, laws=models)
     with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
-        say_notes(Console(stderr=True), kept.notes)
+        say_notes(Console(stderr=True, emoji=False), kept.notes)
         with told_when_stopped("diagnose", kept.words), steps_told("diagnose") as on_step:
             options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
             found = find(dataset, model, effects, **asked, options=options)

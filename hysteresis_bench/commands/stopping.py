@@ -28,7 +28,7 @@ def told_when_stopped(what: Path | str, kept: Callable[[], str], again: str = AG
         told = f"{what}: stopped by {by.name}; {kept()}. {again}"
         from rich.console import Console
 
-        Console(stderr=True, soft_wrap=True).print(told, highlight=False, markup=False)
+        Console(stderr=True, soft_wrap=True, emoji=False).print(told, highlight=False, markup=False)
         sys.exit(128 + by)
     finally:
         signal.signal(signal.SIGTERM, before)

@@ -22,7 +22,7 @@ def plain_console(aside: bool = False) -> Console:
     """
     from rich.console import Console
 
-    console = Console(stderr=aside)
+    console = Console(stderr=aside, emoji=False)  # a record ":b:" is no picture
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = 120
     return console
@@ -38,7 +38,7 @@ def say_notes(console: Console, notes: Sequence[str]) -> None:
 
 def say_path(console: Console, what: str, path: Path) -> None:
     """Where something was written, on one line however long the path is."""
-    console.print(f"{what}: {path}", highlight=False, soft_wrap=True)
+    console.print(f"{what}: {path}", highlight=False, soft_wrap=True, markup=False)
 
 
 def say_page(console: Console, page: Path, wanted: bool, what: str = "page") -> None:

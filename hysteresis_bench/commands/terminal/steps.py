@@ -54,7 +54,7 @@ def clock(seconds: float) -> str:
 @contextmanager
 def steps_told(name: str, console: Console | None = None) -> Iterator[OnStep]:
     """Yields what a computation calls with its steps; name : of the command."""
-    console = console or Console(stderr=True, soft_wrap=True)
+    console = console or Console(stderr=True, soft_wrap=True, emoji=False)
     now = time.monotonic()
     reached = Reached(Step("beginning"), now, now)
     if console.is_terminal:
