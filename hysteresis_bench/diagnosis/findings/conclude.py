@@ -81,6 +81,7 @@ def conclude(
         headline=headline(outcome),
         effects=outcome.named,
         stand_ins=outcome.stand_ins,
+        carrying=doubt.carrying,
         better_law=doubt.cause,
         agreement=doubt.agreement,
         offset=stages.offset,

@@ -109,6 +109,7 @@ def complete(content: Mapping[str, Any]) -> dict[str, Any]:
         "unseen": None,
         "laws": None,
         "stand_ins": [],
+        "carrying": [],
         "certainty": {},
         "better_law": None,
         "agreement": None,
@@ -131,6 +132,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
     left to tell one), and what that rests on
     stand_ins : in the final model beside the effects, and not named: a law that does better, or as well, does not
     need them, or it is an offset beside something that is not explained
+    carrying : of these, what carries the loop alone, beside which the law has next to none
     measured : the experiment that an earlier diagnosis advised and that is fitted here, and what it settled
     offset_of_both : the offset, where the system before has it as the one after has
     """
@@ -142,6 +144,7 @@ def as_dict(diagnosis: Diagnosis) -> dict[str, Any]:
         "headline": diagnosis.headline,
         "effects": list(diagnosis.effects),
         "stand_ins": list(diagnosis.stand_ins),
+        "carrying": list(diagnosis.carrying),
         "certainty": {
             name: {"probability": one.probability, **asdict(one)} for name, one in diagnosis.certainty.items()
         },

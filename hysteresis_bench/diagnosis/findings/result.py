@@ -36,6 +36,7 @@ class Diagnosis:
     headline : the verdict as a sentence
     better_law : a law that does clearly better than the one that was asked about
     agreement : of the laws on what is needed, where this one does not follow the data and none does clearly better
+    carrying : of the stand-ins, what carries the loop alone: another law
     stand_ins : adopted, and in the final model, but not named: not needed around a law that does better, or as well,
     or an offset beside something that is not explained
     effects : adopted and named, the largest first;  waterfall : label and RMSE on the fitted records, from the bare
@@ -76,6 +77,7 @@ class Diagnosis:
     given_up: Fallback | None
     unseen: float
     stand_ins: tuple[str, ...] = ()
+    carrying: tuple[str, ...] = ()
     better_law: Cause | None = None
     agreement: Agreement | None = None
     doubtful: bool = False

@@ -142,6 +142,8 @@ def _title(found: Mapping[str, Any]) -> str:
         return f"{model} {'may lack' if found['doubtful'] else 'lacks'} {listed(names)}{more}"
     if better:
         return f"{model} is not the law here: {better['model']} does better"
+    if carrying := found["carrying"]:
+        return f"{model} is not the law here: {listed(carrying)} carries the loop"
     return f"{model} leaves something that no effect explains" if unexplained else f"{model} lacks nothing known here"
 
 
