@@ -21,6 +21,7 @@ from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
+from hysteresis_bench.diagnosis.search.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.search.past import begun, pasts, with_pasts
 from hysteresis_bench.diagnosis.search.search import Found, search
@@ -109,6 +110,10 @@ def searched(dataset: Dataset, question: Question) -> Around:
     on_step(Step(f"{law}: noise and memory"))
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
+    on_step(Step(f"{law}: lone samples"))
+    if found.follows and (mended := without_lone_samples(found, prepared.dataset.records)):
+        prepared, found = _anew(prepared.read_as(mended.records, mended.note), question)
+        evidence = found.evidence
     on_step(Step(f"{law}: the noise of the input"))
     # the floor knows of the input's noise: what is left far above it, no smoother input explains
     if evidence.noise.input_heard and found.best.rmse <= WRONG * found.selection.floor:
