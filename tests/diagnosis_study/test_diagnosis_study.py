@@ -250,6 +250,22 @@ def test_the_command_writes_the_page_of_a_diagnosis_study_again(tmp_path):
     assert "holds another study" in again.output
 
 
+@pytest.mark.parametrize(
+    ("hidden", "claimed", "missed", "extra", "family", "right"),
+    [
+        ("drift", "zero-with-time", "drift", "zero-with-time", "drift", [True]),
+        ("drift", "zero-with-time creep", "drift", "zero-with-time creep", "drift", [True, False]),
+        ("saturation", "stop-above", "saturation", "stop-above", "", [False]),
+        ("drift saturation", "output-curve", "drift saturation", "output-curve", "saturation", [True]),
+    ],
+)
+def test_a_family_told_with_its_curve_is_right(hidden, claimed, missed, extra, family, right):
+    told = [f"0.{9 - 3 * k}00" for k in range(len(right))]  # a bin each
+    sure = " ".join(told)
+    case = Case("b", "bouc-wen", 1, "done", "", hidden, claimed, "", "", missed, extra, family, sure)
+    assert [one.right for one in reliability([case])][::-1] == [int(one) for one in right]
+
+
 def test_the_page_holds_probabilities_against_what_was_right(tmp_path):
     (tmp_path / STUDY).write_text(TEXT)
     claims = [("0.950", ""), ("0.930", ""), ("0.300", "drift"), ("-", "drift")]

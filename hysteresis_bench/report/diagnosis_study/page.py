@@ -74,7 +74,10 @@ def _sure(folder: Path, cases: Sequence[Case]) -> list[Section]:
     error = sum(one.claims * abs(one.right / one.claims - one.told) for one in bins) / count
     header = ["Probability told", "Claims", "Mean told", "Right", "95\u202f% interval"]
     rows = [_bin(one) for one in bins]
-    note = "Right: of the claims, those whose effect was hidden, or one tied with it. Intervals are Wilson's."
+    note = (
+        "Right: of the claims, those whose effect was hidden, or one tied with it, or of whose family one was hidden "
+        "where the family was told with its curve. Intervals are Wilson's."
+    )
     told = f"{count} claims; the mean gap between what was told and what was right is {percent(error, 2)}."
     return [
         Section(

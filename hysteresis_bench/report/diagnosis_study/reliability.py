@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
+from hysteresis_bench import registry
 from hysteresis_bench.diagnosis_study.case import Case
 
 EDGES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
@@ -15,7 +16,8 @@ EDGES = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)
 class Bin:
     """Claims whose probability was told between two bounds.
 
-    told : mean of the probabilities;  right : claims whose effect was hidden, or one tied with it
+    told : mean of the probabilities;  right : claims whose effect was hidden, or one tied with it, or whose family was
+    told with its curve and is a hidden one's
     """
 
     low: float
@@ -40,5 +42,9 @@ def reliability(cases: Sequence[Case]) -> list[Bin]:
 def _claims(case: Case) -> list[tuple[float, bool]]:
     """Probability told, and whether it was right, of each claim that has one."""
     names, told, spare = case.claimed.split(), case.sure.split(), case.extra.split()
+    hidden = case.family.split()  # told by their families
+    families = {registry.effect(name).family for name in hidden}
+    all_told = len(hidden) == len(spare)  # then each stands for one, if not of its own family then of a tied one's
+    wrong = [name for name in spare if not all_told and registry.effect(name).family not in families]
     pairs = zip(names, told, strict=True) if told else ()
-    return [(float(one), name not in spare) for name, one in pairs if one != "-"]
+    return [(float(one), name not in wrong) for name, one in pairs if one != "-"]
