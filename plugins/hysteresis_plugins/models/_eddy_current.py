@@ -27,7 +27,7 @@ from hysteresis_plugins.models._eddy_current_hidden import opposed
 class EddyCurrent(Effect):
     """Eddy currents inside the hysteresis law: the input that acts is opposed by the rate of the output.
 
-    z = u - coefficient dy/dt acts in place of the input u, y = F[z] [1, 2]; z = u at the first sample. For a law
+    z = u - coefficient dy/dt acts in place of the input u, y = F[z], see [1, 2]; z = u at the first sample. For a law
     of constant slope this is an input lag of coefficient times the slope; the steeper the law, the longer it lags.
     Loops grow with frequency. `kernels.eddy_current` says how it is solved: second order in the sampling step. The
     latent heat of a transformation, where the input is a temperature, is the same term under another name.

@@ -62,8 +62,8 @@ def _parameters(law: str) -> tuple[Parameter, ...]:
 class Oscillator(Model):
     """Hysteresis in feedback: a mass on a hysteretic spring that a force drives.
 
-    mass x'' + damping x' + z = u, z = law[x] [1, 2]: the output is x. The spring's linear part is the law's own, k x of
-    the literature: d, slope, or the first coefficient. Rate-dependent.
+    mass x'' + damping x' + z = u, z = law[x], see [1, 2]: the output is x. The spring's linear part is the law's own,
+    k x of the literature: d, slope, or the first coefficient. Rate-dependent.
 
     law : a shipped law that acts on the displacement, with its default settings
     substeps : integration steps a sample, 1 to 200; the force between samples is a cubic spline
