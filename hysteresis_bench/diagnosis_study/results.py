@@ -15,10 +15,14 @@ from hysteresis_bench.diagnosis_study.case import Case, CaseTicket
 from hysteresis_bench.diagnosis_study.confusion import confusion
 from hysteresis_bench.diagnosis_study.study_file import DiagnosisStudy, read_diagnosis_study
 from hysteresis_bench.errors import UserError, told
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.study.kept_files.reader import UNREADABLE
 
 STUDY, CASES, CONFUSION, FOLDER = "study.toml", "cases.csv", "confusion.csv", "cases"
 
+
+LISTED = 3
+"""Benches that are told by name, where they are not the same."""
 
 ADDED = ("family", "sure", "ties", "told", "settled", "then")
 """Fields that older files lack."""
@@ -93,11 +97,13 @@ def check_same(folder: Path, study: DiagnosisStudy) -> None:
         return
     before, _ = read_diagnosis_study(folder / STUDY)
     now = {bench.name: bench for bench in study.bench}
-    faults = [f'bench "{b.name}" is not the same.' for b in before.bench if now.get(b.name, b) != b]
+    other = [f'"{b.name}"' for b in before.bench if now.get(b.name, b) != b]
+    are = "benches are" if len(other) > 1 else "bench is"
+    faults = [f"{len(other)} {are} not the same there: {listed(other, LISTED)}."] if other else []
     if before.seed != study.seed:
         faults.append(f"seed was {before.seed} there and is {study.seed} here.")
     if faults:
-        raise UserError(f"{folder} holds another study", [*faults, "Choose another folder with --out."])
+        raise UserError(str(folder), f"holds another study: {' '.join(faults)} Choose another folder.")
 
 
 def keep_tables(folder: Path, kept: Path) -> Path:
