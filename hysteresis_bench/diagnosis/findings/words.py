@@ -152,6 +152,9 @@ def headline(outcome: Outcome) -> str:
         said += f" What was held out is missed by {rounded(outcome.leaves[1])} times the noise: something is lacking."
     elif outcome.unexplained:
         said += " Something is left that no effect explains."
+    elif outcome.left.slow and outcome.leaves[0] > WRONG:
+        left = f"{rounded(outcome.leaves[0])} times the noise from sample to sample"
+        said += f" What is left is {left}: slow noise, or a cause that these records do not show."
     return said
 
 

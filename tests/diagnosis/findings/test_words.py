@@ -73,6 +73,7 @@ def test_what_does_not_predict_the_held_out_records_is_not_said_to_explain_the_d
     assert "may lack creep" in headline(by_a_little)
     assert headline(by_a_little).endswith("What was held out is missed by 1.5 times the noise: something is lacking.")
     noisy = outcome_of(("creep",), {}, rmse=0.3, held_out=0.35, slow=True)
+    assert "What is left is 3 times the noise from sample to sample: slow noise, or a cause" in headline(noisy)
     assert not noisy.unexplained, "slow noise is in both alike"
     assert not noisy.doubtful
     assert outcome_of(("creep",), {}, rmse=0.3, held_out=2.1, slow=True).unexplained
