@@ -18,12 +18,12 @@ from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
 from hysteresis_bench.diagnosis.preparation import Prepared, prepare
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.beginnings import only_in_beginnings, without_beginnings
-from hysteresis_bench.diagnosis.search.between_samples import FINER, few_samples, with_finer_steps
+from hysteresis_bench.diagnosis.reading.beginnings import only_in_beginnings, without_beginnings
+from hysteresis_bench.diagnosis.reading.between_samples import FINER, few_samples, with_finer_steps
+from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
+from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
+from hysteresis_bench.diagnosis.reading.past import begun, pasts, with_pasts
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
-from hysteresis_bench.diagnosis.search.lone_samples import without_lone_samples
-from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
-from hysteresis_bench.diagnosis.search.past import begun, pasts, with_pasts
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MATTERS, MISFIT
 from hysteresis_bench.fit.identifiability.combinations import listed

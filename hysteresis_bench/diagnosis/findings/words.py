@@ -15,7 +15,7 @@ from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis.search.between_samples import TELLING, between_samples
+from hysteresis_bench.diagnosis.reading.between_samples import TELLING, between_samples
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import MISFIT

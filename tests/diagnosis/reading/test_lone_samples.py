@@ -11,7 +11,7 @@ from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.diagnosis.search.lone_samples import without_lone_samples
+from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.search.search import search
 
 RECORDS = ("slow", "fast", "nested", "mixed")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.noisy_input import with_smooth_inputs
+from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.signals import Dataset, Record
 
 
@@ -47,7 +47,10 @@ class Stop(Exception):
 @pytest.mark.parametrize(("left", "again"), [(1.05, True), (1.9, True), (2.1, False), (8.4, False)])
 def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(monkeypatch, left, again):
     module = import_module("hysteresis_bench.diagnosis.around")
-    told, found = [], SimpleNamespace(best=SimpleNamespace(rmse=left), selection=SimpleNamespace(floor=1.0))
+    told, found = (
+        [],
+        SimpleNamespace(follows=False, best=SimpleNamespace(rmse=left), selection=SimpleNamespace(floor=1.0)),
+    )
     prepared = SimpleNamespace(views=(), dataset=Dataset(()))
     prepared.read_as = lambda records, why: told.append(why) or prepared
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.search.past import begun, pasts, with_past, with_pasts
+from hysteresis_bench.diagnosis.reading.past import begun, pasts, with_past, with_pasts
 from hysteresis_bench.signals import Dataset, Record
 
 diagnosing = importlib.import_module("hysteresis_bench.diagnosis.around")

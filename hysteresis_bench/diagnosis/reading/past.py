@@ -22,7 +22,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.preparation import thinned
-from hysteresis_bench.diagnosis.search.beginnings import without_beginnings
+from hysteresis_bench.diagnosis.reading.beginnings import without_beginnings
 from hysteresis_bench.signals import Dataset, Record
 
 Past: TypeAlias = tuple[float, float]

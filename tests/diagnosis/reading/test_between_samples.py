@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.search import between_samples
+from hysteresis_bench.diagnosis.reading import between_samples
 from hysteresis_bench.signals import Record
 
 FLOOR = 2.0

@@ -1,0 +1,1 @@
+"""Records read otherwise than they were measured: smoother, finer, without lone samples, with what came before."""
