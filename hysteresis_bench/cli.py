@@ -39,10 +39,11 @@ class Group(click.Group):
             told = str(error)
         except OSError as error:  # a folder that cannot be written, a full disk
             told = f"{error.filename or self.name}: {error.strerror or error}."
-        from rich.console import Console
         from rich.markup import escape
 
-        Console(stderr=True, soft_wrap=True, emoji=False).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
+        from hysteresis_bench.commands.terminal.console import terminal
+
+        terminal(aside=True, soft_wrap=True).print(f"[bold red]error:[/] {escape(told)}", highlight=False)
         sys.exit(USER_AT_FAULT)
 
     def invoke(self, context: click.Context) -> Any:

@@ -48,7 +48,7 @@ return-point : after an inner loop the output is what it was;  congruent : inner
 
 @dataclass(frozen=True)
 class Example:
-    """With what a model makes data of its own, when effects are hidden in them; None where it is not asked to.
+    """With what a model makes data of its own, when effects are hidden in them.
 
     amplitude : of the drive;  parameters : values by name;  stream : the model's own random numbers, unlike those of
     every other model, so that another model changes no draw;  without : effects that no data can be made with
@@ -78,7 +78,7 @@ class Model(ABC):
     """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
     senses: ClassVar[tuple[int, ...]] = (-1, 1)
     """Of its loops, output over input: 1 where they can run anticlockwise, -1 clockwise."""
-    example: ClassVar[Example | None] = None
+    example: ClassVar[Example | None] = None  # with what it makes data, where it may be asked to
 
     @abstractmethod
     def simulate(self, signal: Signal, p: Any) -> Array:

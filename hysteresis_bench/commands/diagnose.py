@@ -13,7 +13,14 @@ from hysteresis_bench.commands.data.parameters import model_options
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
 from hysteresis_bench.commands.terminal.as_json import json_option
-from hysteresis_bench.commands.terminal.console import open_option, plain_console, say_notes, say_page, say_path
+from hysteresis_bench.commands.terminal.console import (
+    open_option,
+    plain_console,
+    say_notes,
+    say_page,
+    say_path,
+    terminal,
+)
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -73,8 +80,6 @@ def diagnose(
     from dataclasses import replace
     from functools import partial
 
-    from rich.console import Console
-
     from hysteresis_bench import diagnose as find
     from hysteresis_bench import load
     from hysteresis_bench.commands.data.journal import journal
@@ -88,7 +93,7 @@ def diagnose(
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     check_plot(plot, data, force)
     bench = _bench(measure, seed, prepared) if measure else None
-    dataset, console = load(*data, held_out=held_out, layout=layout), Console(soft_wrap=False, emoji=False)
+    dataset, console = load(*data, held_out=held_out, layout=layout), terminal()
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
@@ -97,7 +102,7 @@ def diagnose(
         check_folder(folder, (f"{bench.record_name(dataset)}.csv",), FILE, data, force)
     options = DiagnosisOptions(seed, None, **prepared, accept_terms=accept_terms, laws=models)
     with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
-        say_notes(Console(stderr=True, emoji=False), kept.notes)
+        say_notes(terminal(aside=True), kept.notes)
         with told_when_stopped("diagnose", kept.words), steps_told("diagnose") as on_step:
             options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
             found = find(dataset, model, effects, **asked, options=options)

@@ -26,9 +26,9 @@ def told_when_stopped(what: Path | str, kept: Callable[[], str], again: str = AG
     except KeyboardInterrupt as stopped:
         by = signal.Signals(stopped.args[0]) if stopped.args else signal.SIGINT
         told = f"{what}: stopped by {by.name}; {kept()}. {again}"
-        from rich.console import Console
+        from hysteresis_bench.commands.terminal.console import terminal
 
-        Console(stderr=True, soft_wrap=True, emoji=False).print(told, highlight=False, markup=False)
+        terminal(aside=True, soft_wrap=True).print(told, highlight=False, markup=False)
         sys.exit(128 + by)
     finally:
         signal.signal(signal.SIGTERM, before)

@@ -15,14 +15,19 @@ if TYPE_CHECKING:
 open_option = click.option("--open", "open_page", is_flag=True, help="Open the page in a browser.")
 
 
+def terminal(aside: bool = False, soft_wrap: bool = False) -> Console:
+    """Where all of it is printed: names as they are, a record ":b:" is no picture.  aside : on standard error"""
+    from rich.console import Console
+
+    return Console(stderr=aside, soft_wrap=soft_wrap, emoji=False)
+
+
 def plain_console(aside: bool = False) -> Console:
     """As wide as the terminal; 120 columns for a file or a pipe, which have no width of their own.
 
     aside : on standard error, where standard output is for a program
     """
-    from rich.console import Console
-
-    console = Console(stderr=aside, emoji=False)  # a record ":b:" is no picture
+    console = terminal(aside)
     if not console.is_terminal and "COLUMNS" not in os.environ:
         console.width = 120
     return console

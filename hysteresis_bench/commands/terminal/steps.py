@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from rich.console import Console
 from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn, TimeRemainingColumn
 
+from hysteresis_bench.commands.terminal.console import terminal
 from hysteresis_bench.progress import OnStep, Step
 
 FIRST, EVERY = 1.0, 5.0
@@ -54,7 +55,7 @@ def clock(seconds: float) -> str:
 @contextmanager
 def steps_told(name: str, console: Console | None = None) -> Iterator[OnStep]:
     """Yields what a computation calls with its steps; name : of the command."""
-    console = console or Console(stderr=True, soft_wrap=True, emoji=False)
+    console = console or terminal(aside=True, soft_wrap=True)
     now = time.monotonic()
     reached = Reached(Step("beginning"), now, now)
     if console.is_terminal:

@@ -14,17 +14,7 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import unresolved_curve
 from hysteresis_plugins.effects.free._spline import extremes
-from hysteresis_plugins.effects.free.lags._level import (
-    ACCURACY,
-    LIMITS,
-    RANGES,
-    behind,
-    box,
-    constants,
-    curve,
-    parameters,
-    starts,
-)
+from hysteresis_plugins.effects.free.lags._level import ACCURACY, LIMITS, RANGES, behind, box, curve, parameters, starts
 
 
 @dataclass(frozen=True)
@@ -53,7 +43,7 @@ class LagWithLevelBefore(FreeForm):
     parameters = parameters("{input}")
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        if not signal.timed or not np.any(constants(p)):  # the model sees the very input, still shared by the swarm
+        if not signal.timed or not np.any(p.time_constant):  # the model sees the very input, still shared by the swarm
             return inner(signal)
         return inner(signal.with_input(behind(signal.time, signal.input, p)))
 
