@@ -23,15 +23,14 @@ from types import ModuleType
 import numpy as np
 from rich.console import Console
 
-import hysteresis_bench.diagnosis
-import hysteresis_bench.fit
+import hysteresis_bench
 from hysteresis_bench import DiagnosisOptions, diagnose, registry
 from hysteresis_bench.commands.data.journal import Journal
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.problems import measure
 
 HOME = hysteresis_bench.__name__
-ROOMS = (hysteresis_bench.diagnosis, hysteresis_bench.fit)
+ROOMS = (f"{HOME}.diagnosis", f"{HOME}.fit")
 THRESHOLDS = (
     ("diagnosis.search.selection", "LEVEL", 0.0),
     ("diagnosis.search.selection", "MATTERS", 1.0),
@@ -61,7 +60,7 @@ def main() -> None:
     modules = [
         importlib.import_module(one.name)
         for room in ROOMS
-        for one in pkgutil.walk_packages(room.__path__, f"{room.__name__}.")
+        for one in pkgutil.walk_packages(importlib.import_module(room).__path__, f"{room}.")
     ]
     cases = list(made(told.cases, told.seed))
     console = Console(width=100, highlight=False)

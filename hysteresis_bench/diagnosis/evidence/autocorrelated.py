@@ -124,6 +124,19 @@ def f_tail(statistic: float, above: float, below: float) -> float:
     return float(fdtrc(above, max(below, 4.0), max(statistic, 0.0)))
 
 
+def overlooked(effective: float, columns: int, level: float) -> float:
+    """Share of the variance that so many columns explain of so many effective samples where the F test of `f_test` just
+    passes at a level: a dependence of less may be there unseen. 1 where there are too few samples for a test."""
+    from scipy.special import fdtri
+
+    freedom = effective - columns - 1.0  # each test leaves a mean free
+    if freedom <= 0.0:
+        return 1.0
+    passing = float(fdtri(columns, max(freedom, 4.0), 1.0 - level))
+    ratio = passing * (effective + 2.0 * (columns + 1.0)) / effective * columns / freedom
+    return ratio / (1.0 + ratio)
+
+
 def constants(errors: Parts) -> list[Array]:
     """One column a record: 1 inside it, 0 elsewhere."""
     return [np.tile(row, (error.size, 1)) for row, error in zip(np.eye(len(errors)), errors, strict=True)]

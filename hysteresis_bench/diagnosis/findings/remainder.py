@@ -8,10 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, f_tail
+from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, f_tail, overlooked
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
+from hysteresis_bench.diagnosis.evidence.residual_tests import LEVEL as OF_A_TEST
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
@@ -23,6 +24,8 @@ REMAINS = 1.1
 TELLING = 0.03
 """Share of the residual's variance from which a dependence matters."""
 
+DEPENDENCE = 4
+"""Columns of a dependence, as on the input."""
 
 OF_THE_NOISE = ("noise-floor", "whiteness", "offset")
 """Tests that slow noise fails, beside those of the scatter; it passes all that ask for a cause."""
@@ -33,7 +36,8 @@ class Remainder:
     """equation : what describes the residual, None where it does not matter
     matters : something with a cause is left, or a residual that is too small a sample to tell
     slow : nothing is left but noise that changes slowly: correlated from sample to sample, without any cause that was
-        measured, described by no term, and no louder where nothing was fitted
+        measured, described by no term, and no louder where nothing was fitted; and of so many independent samples that
+        a cause of `WRONG` times the noise would have been seen in it
     louder : where nothing was fitted, clearly more is left than where it was
     """
 
@@ -59,8 +63,17 @@ def remainder(stage: Stage, evidence: Evidence) -> Remainder:
     equation = find_terms([view.record for view in views], residuals, simulated)
     caused = [test for test in tests if test.name not in OF_THE_NOISE and "scatter" not in test.name]
     slow = any(test.name == "whiteness" for test in tests) and not caused and not equation.terms
-    slow = slow and not louder
+    slow = slow and not louder and _hidden(residuals, len(tests)) <= WRONG * floor
     return Remainder(equation, not slow, slow, louder)
+
+
+def _hidden(residuals: Sequence[Array], tests: int) -> float:
+    """RMS of the largest cause that one of so many tests may have overlooked in the residual.
+
+    One loop is a handful of independent samples, whatever their number: whether what is left of it is noise or the
+    law's fault, nobody can tell."""
+    rms = float(np.sqrt(np.mean(np.concatenate(residuals) ** 2)))
+    return rms * overlooked(effective_samples(residuals), DEPENDENCE, OF_A_TEST / max(tests, 1)) ** 0.5
 
 
 def _louder(stage: Stage, residuals: Sequence[Array], floor: float) -> bool:

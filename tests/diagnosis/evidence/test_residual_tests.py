@@ -11,7 +11,7 @@ from scipy.signal import lfilter
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.autocorrelated import autoregression, effective_samples, f_test
+from hysteresis_bench.diagnosis.evidence.autocorrelated import autoregression, effective_samples, f_test, overlooked
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, residual_tests
 from hysteresis_bench.diagnosis.evidence.view import View
@@ -158,3 +158,24 @@ def test_f_test_without_autocorrelation_is_the_textbook_one() -> None:
 
     assert answer.p == pytest.approx(linregress(x, e + 0.1 * x).pvalue, rel=0.15)
     assert f_test([e], [np.ones((500, 1))]).p == 1.0
+
+
+@pytest.mark.parametrize("samples", [100, 1000])
+def test_a_dependence_of_the_share_that_is_overlooked_just_passes(samples: int) -> None:
+    rng = np.random.default_rng(5)
+    columns = rng.standard_normal((samples, 4))
+    passed = {}
+    for factor in (0.5, 1.0, 2.0):
+        share = factor * overlooked(samples, 4, 0.01)
+        smallest = []
+        for _ in range(60):
+            noise, signal = rng.standard_normal(samples), columns @ rng.standard_normal(4)
+            residual = np.sqrt(share) * signal / signal.std() + np.sqrt(1.0 - share) * noise
+            smallest.append(f_test([residual], [columns]).p < 0.01)
+        passed[factor] = np.mean(smallest)
+    assert passed[0.5] < 0.4 < passed[1.0] < 0.95 <= passed[2.0]
+
+
+def test_of_too_few_samples_everything_is_overlooked() -> None:
+    assert overlooked(5.0, 4, 0.01) == 1.0
+    assert overlooked(1e6, 4, 0.01) < 1e-4

@@ -5,7 +5,7 @@ from types import SimpleNamespace as Of
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.findings.remainder import _louder
+from hysteresis_bench.diagnosis.findings.remainder import _hidden, _louder
 
 RECORDS, SAMPLES = 4, 800
 
@@ -48,3 +48,15 @@ def test_where_nothing_was_held_out_nothing_is_louder():
 def test_a_fit_below_the_noise_makes_nothing_else_louder():
     assert _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 0.0)
     assert not _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 1.0)
+
+
+def test_noise_of_many_independent_samples_hides_little():
+    parts = residuals(1)
+    assert _hidden(parts, 14) < 0.5 * np.sqrt(np.mean(np.concatenate(parts) ** 2))
+
+
+def test_one_loop_hides_almost_all_that_it_leaves():
+    """A smooth misfit, two loops of it: whatever the number of samples, it is a handful of independent ones."""
+    phase = np.linspace(0.0, 2.0 * np.pi, 2000)
+    parts = [np.sin(2.0 * phase), np.cos(2.0 * phase)]
+    assert _hidden(parts, 14) > 0.9 * np.sqrt(np.mean(np.concatenate(parts) ** 2))
