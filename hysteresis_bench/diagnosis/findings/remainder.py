@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,11 +13,11 @@ from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
-from hysteresis_bench.diagnosis.evidence.residual_tests import LEVEL as OF_A_TEST
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
 from hysteresis_bench.diagnosis.search.selection import MISFIT
+from hysteresis_bench.statistics import LEVEL as OF_A_TEST
 
 REMAINS = 1.1
 """RMSE over noise from which what is left matters."""
@@ -73,7 +74,7 @@ def _hidden(residuals: Sequence[Array], tests: int) -> float:
     One loop is a handful of independent samples, whatever their number: whether what is left of it is noise or the
     law's fault, nobody can tell."""
     rms = float(np.sqrt(np.mean(np.concatenate(residuals) ** 2)))
-    return rms * overlooked(effective_samples(residuals), DEPENDENCE, OF_A_TEST / max(tests, 1)) ** 0.5
+    return rms * math.sqrt(overlooked(effective_samples(residuals), DEPENDENCE, OF_A_TEST / max(tests, 1)))
 
 
 def _louder(stage: Stage, residuals: Sequence[Array], floor: float) -> bool:
