@@ -22,6 +22,8 @@ from hysteresis_bench.arrays import Array
 Parts = Sequence[Array]
 
 ORDERS = 12
+FEWEST = 4.0
+"""Degrees of freedom of an F test below, at least: the estimate of their number is rough."""
 TINY = 1e-12
 """Below this share of the sum of squares lies only rounding."""
 
@@ -118,10 +120,10 @@ def f_test(errors: Parts, columns: Parts, nuisance: Parts | None = None, level: 
 
 
 def f_tail(statistic: float, above: float, below: float) -> float:
-    """P(F > statistic); at least 4 degrees of freedom below, where the estimate of their number is rough."""
+    """P(F > statistic), with at least `FEWEST` degrees of freedom below."""
     from scipy.special import fdtrc
 
-    return float(fdtrc(above, max(below, 4.0), max(statistic, 0.0)))
+    return float(fdtrc(above, max(below, FEWEST), max(statistic, 0.0)))
 
 
 def overlooked(effective: float, columns: int, level: float) -> float:
@@ -132,7 +134,7 @@ def overlooked(effective: float, columns: int, level: float) -> float:
     freedom = effective - columns - 1.0  # each test leaves a mean free
     if freedom <= 0.0:
         return 1.0
-    passing = float(fdtri(columns, max(freedom, 4.0), 1.0 - level))
+    passing = float(fdtri(columns, max(freedom, FEWEST), 1.0 - level))
     ratio = passing * (effective + 2.0 * (columns + 1.0)) / effective * columns / freedom
     return ratio / (1.0 + ratio)
 

@@ -167,12 +167,12 @@ def test_a_dependence_of_the_share_that_is_overlooked_just_passes(samples: int) 
     passed = {}
     for factor in (0.5, 1.0, 2.0):
         share = factor * overlooked(samples, 4, 0.01)
-        smallest = []
+        called = []
         for _ in range(60):
             noise, signal = rng.standard_normal(samples), columns @ rng.standard_normal(4)
             residual = np.sqrt(share) * signal / signal.std() + np.sqrt(1.0 - share) * noise
-            smallest.append(f_test([residual], [columns]).p < 0.01)
-        passed[factor] = np.mean(smallest)
+            called.append(f_test([residual], [columns]).p < 0.01)
+        passed[factor] = np.mean(called)
     assert passed[0.5] < 0.4 < passed[1.0] < 0.95 <= passed[2.0]
 
 
