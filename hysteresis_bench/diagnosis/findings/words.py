@@ -218,8 +218,8 @@ def _gave_up(fallback: Fallback, floor: float) -> str:
         )
     worse = f" {listed(fallback.worse_on)} was predicted clearly worse with than without." if fallback.worse_on else ""
     return (
-        f"{said} on what was left out of the fits in turn the RMSE was {fallback.selected:.3g} with {them} and "
-        f"{fallback.kept:.3g} without (bare: {fallback.bare:.3g}).{worse}"
+        f"{said} on what was left out of the fits in turn the RMSE (geometric mean) was {fallback.selected:.3g} with "
+        f"{them} and {fallback.kept:.3g} without (bare: {fallback.bare:.3g}).{worse}"
     )
 
 

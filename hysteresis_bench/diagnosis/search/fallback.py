@@ -3,7 +3,8 @@
 Held-out records have no part in this; only fitted excitations are left out in turn (fit/unseen/excitations.py).
 
 1. The bare model, and the systems that grow from it by one adopted effect after the other, predict what was left out.
-   Where the last one does worse than the bare model, the one that does it best is kept.
+   Where the last one does worse than the bare model, the one that does it best is kept. Every excitation counts alike:
+   on one that goes beyond all others what is undetermined without it runs wild, with whatever effect.
 2. An effect with which any excitation between the others is predicted clearly worse than without it leaves.
 3. Of one loop nothing can be left out. What follows such a path better may be any curve, and a law that does not come
    down to the noise asks for one. Effects stay there only if with them the noise is nearly reached.
@@ -30,8 +31,8 @@ effect joins (`selection.MATTERS`), the other way round."""
 @dataclass(frozen=True)
 class Fallback:
     """What was given up. dropped : names, in the order in which they had been adopted
-    selected, kept, bare : RMSE of what had been selected, of what is kept, of the bare model, on excitations left out;
-    on what was fitted where nothing could be
+    selected, kept, bare : RMSE of what had been selected, of what is kept, of the bare model, on excitations left out
+    (geometric mean over them); on what was fitted where nothing could be
     tested : whether an excitation could be left out
     worse_on : of effects that made an excitation worse: its record's name
     """
@@ -71,10 +72,10 @@ def fall_back(fitter: Fitter, base: Hypothesis, order: Grown, floor: float) -> F
         return Fallback(names, last.rmse, base.rmse, base.rmse, tested=False) if last.rmse > WRONG * floor else None
     if not fitter.excitations.apart:
         return None
-    selected, bare = _predicted(fitter, last), _predicted(fitter, base)
+    selected, bare = _predicted(fitter, last, floor), _predicted(fitter, base, floor)
     if selected <= bare:
         return None
-    errors = [bare, *(_predicted(fitter, system) for _, system in order[:-1])]
+    errors = [bare, *(_predicted(fitter, system, floor) for _, system in order[:-1])]
     kept = int(np.argmin(errors))
     return Fallback(tuple(name for name, _ in order[kept:]), selected, errors[kept], bare)
 
@@ -98,10 +99,12 @@ def misleading(
             own = number == k
             more, less = _rms(ours[own]), _rms(theirs[own])
             if more > WORSE * max(less, floor) and advantage(theirs[own], ours[own], blocks.of(own)) > CLEAR:
-                found.append((more / less, Fallback((name,), _rms(ours), _rms(theirs), 0.0, True, (records[k].name,))))
+                found.append((more / less, name, records[k].name))
     if not found:
         return None
-    return replace(max(found, key=lambda one: one[0])[1], bare=_predicted(fitter, base))
+    _, worst, record = max(found, key=lambda one: one[0])
+    selected, kept, bare = (_predicted(fitter, one, floor) for one in (best, without[worst], base))
+    return Fallback((worst,), selected, kept, bare, worse_on=(record,))
 
 
 def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
@@ -117,9 +120,12 @@ def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> li
     return [one for one, square in zip(hypotheses, squares, strict=True) if (1.0 - worse) * square <= min(squares)]
 
 
-def _predicted(fitter: Fitter, hypothesis: Hypothesis) -> float:
-    """RMSE over what can be left out: whole records, or parts of a lone one."""
-    return _rms(fitter.apart(hypothesis)[fitter.excitations.counted])
+def _predicted(fitter: Fitter, hypothesis: Hypothesis, floor: float) -> float:
+    """Of what can be left out, whole records or parts of a lone one: geometric mean of the RMSE of each, of which none
+    counts as less than the floor."""
+    left, excitations = fitter.apart(hypothesis), fitter.excitations
+    each = [max(_rms(left[excitations.number == k]), floor) for k in excitations.apart]
+    return float(np.exp(np.mean(np.log(each))))
 
 
 def _rms(errors: Array) -> float:

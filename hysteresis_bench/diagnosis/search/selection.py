@@ -112,8 +112,9 @@ class Selection:
         return self._sought(self._extensions(self.without(current, name), current, more))
 
     def rivals(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
-        """What would do as well in the place of an adopted effect."""
-        return {rival: other for rival, other in self.alternatives(current, name).items() if self.tied(current, other)}
+        """What would do as well in the place of an adopted effect, or better by too little to take its place."""
+        others = self.alternatives(current, name)
+        return {key: one for key, one in others.items() if one.cv_rmse < current.cv_rmse or self.tied(current, one)}
 
     def without(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
         return self._reduced(hypothesis, [name])[0]

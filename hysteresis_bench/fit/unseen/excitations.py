@@ -44,11 +44,6 @@ class Excitations:
         """Is there one loop, of one amplitude and frequency, of which nothing can be left out?"""
         return not (self.apart or self.varied)
 
-    @property
-    def counted(self) -> Array:
-        """(scored samples,), which are left out at all."""
-        return np.isin(self.number, self.apart)
-
 
 def excitations(records: Sequence[Record]) -> Excitations:
     """Of the records' scored samples."""

@@ -1,12 +1,14 @@
 """Excitations left out of the fitted records: what predicts them worse is given up, and what nothing can test."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
@@ -57,6 +59,25 @@ def test_what_helps_stays(records):
     base, order = grown(fitter, "drift")
     assert unseen_rmse(fitter, order[-1][1]) < unseen_rmse(fitter, base)
     assert fall_back(fitter, base, order, NOISE) is None
+
+
+@pytest.mark.parametrize(("beyond", "gives_up"), [(3.0, False), (8.1, True)])
+def test_an_excitation_on_which_any_law_runs_wild_counts_as_one(beyond, gives_up):
+    """Three records are predicted twice as well with the effect, the one that goes beyond them worse."""
+    number = np.repeat(np.arange(4), 50)
+
+    def leaving(*errors):
+        return Hypothesis(frozenset(), {}, np.zeros(200), np.repeat(errors, 50), ())
+
+    together = SimpleNamespace(apart=(0, 1, 2, 3), number=number, only_one=False)
+    fitter = SimpleNamespace(excitations=together, apart=lambda hypothesis: hypothesis.left_out)
+    bare, more = leaving(2.0, 2.0, 2.0, 5.0), leaving(1.0, 1.0, 1.0, 5.0 * beyond)
+    assert unseen_rms(more) > unseen_rms(bare)
+    assert (fall_back(fitter, bare, [("fatigue", more)], NOISE) is not None) == gives_up
+
+
+def unseen_rms(hypothesis):
+    return np.sqrt(np.mean(hypothesis.left_out**2))
 
 
 def test_parts_of_a_lone_record_are_left_out(records):

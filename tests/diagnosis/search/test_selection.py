@@ -69,6 +69,14 @@ def test_two_wrong_systems_that_err_differently_are_no_tie():
     assert not selection_of().tied(one, other)
 
 
+def test_what_is_better_by_too_little_to_take_a_names_place_is_told_beside_it():
+    """`b` leaves a tenth less than `a`, and is no tie; `c` leaves more, and is none either."""
+    bare, one = fit("", 0.5), fit("a", 0.115)
+    selection = selection_of(bare, one, fit("b", 0.111), fit("c", 0.13), candidates="abc")
+    assert not selection.tied(one, selection.alternatives(one, "a")["b"])
+    assert [*selection.rivals(one, "a")] == ["b"]
+
+
 @pytest.mark.parametrize(("share", "named"), [(0.3, ""), (0.45, ""), (0.55, "a"), (0.9, "a")])
 def test_an_effect_is_named_that_explains_more_than_it_leaves(share, named):
     """All of them join, because they pass every test; in the end the smaller ones are dropped."""
