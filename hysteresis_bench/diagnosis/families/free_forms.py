@@ -14,6 +14,7 @@ from itertools import combinations
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, MISFIT, NAMED, Selection
+from hysteresis_bench.diagnosis.search.sets import best_of_all
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 CURVES, CLAIMS = 2, 3
@@ -41,7 +42,7 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         if fits and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
-    current = _in_place_of_two(selection, _in_place_of_offsets(selection, current))
+    current = best_of_all(selection, _in_place_of_two(selection, _in_place_of_offsets(selection, current)))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
 
