@@ -16,6 +16,7 @@ from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.remainder import remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.findings.stages import settle_offset
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared, prepare
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.reading.beginnings import only_in_beginnings, without_beginnings
@@ -26,14 +27,15 @@ from hysteresis_bench.diagnosis.reading.past import begun, pasts, with_pasts
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MATTERS, MISFIT
+from hysteresis_bench.diagnosis.search.sets import claims
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.smooth.smoothing import Rough
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 
 SMOOTHED = (
-    "The input is measured with noise. It was smoothed by as much as its noise is (a smoothing spline), which leaves "
-    "less, so that no effect makes up for the noise; `predict` will leave more with inputs as measured."
+    "The input is measured with noise. It was smoothed by as much as its noise is (a smoothing spline), so that no "
+    "effect makes up for the noise; `predict` will leave more with inputs as measured."
 )
 
 BETWEEN = (
@@ -121,7 +123,7 @@ def searched(dataset: Dataset, question: Question) -> Around:
         quiet = gather(smooth.views)
         # what is left of an input that is rough by itself passes for noise again
         again = found if quiet.noise.input_heard else search(smooth, quiet, question)
-        if again.best.rmse < found.best.rmse:
+        if explains_more(again.best, found.best):
             prepared, found = smooth, again
     on_step(Step(f"{law}: what lies between the samples"))
     if few_samples(found):
@@ -133,6 +135,12 @@ def searched(dataset: Dataset, question: Question) -> Around:
     if evidence.memory.needed and (spare := only_in_beginnings(found)) is not None:
         prepared, found = _in_mid_loop(prepared, found, spare, question)
     return Around(dataset, question, prepared, found)
+
+
+def explains_more(smooth: Hypothesis, found: Hypothesis) -> bool:
+    """Does a smoother input leave less? Instead of effects it may leave a little more: one that takes the input's noise
+    off as well also takes off what a spline leaves of it, or takes for noise."""
+    return smooth.rmse < (MATTERS if claims(smooth) < claims(found) else 1.0) * found.rmse
 
 
 def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:

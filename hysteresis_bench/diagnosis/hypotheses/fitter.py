@@ -151,7 +151,7 @@ class Fitter:
 
     def test(self, smaller: Hypothesis, larger: Hypothesis) -> NestedTest:
         """Is the larger one better than chance? Not where what it has more is no wider than the input's noise."""
-        if any(self._drowned(larger, name) for name in larger.names - smaller.names):
+        if any(self.drowned(larger, name) for name in larger.names - smaller.names):
             return NestedTest(0.0, 1.0, 0)
         known, all_ = (self._fitted_values(hypothesis) for hypothesis in (smaller, larger))
         nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
@@ -168,7 +168,7 @@ class Fitter:
         """RMS over the records, unit of the input."""
         return float(np.sqrt(np.mean([fast_noise(record.time, record.input)[0] ** 2 for record in self.stack.records])))
 
-    def _drowned(self, hypothesis: Hypothesis, name: str) -> bool:
+    def drowned(self, hypothesis: Hypothesis, name: str) -> bool:
         """Is an effect's width on the input's axis, such as a dead band's, within the noise of the measured input?
         Such a band takes small false reversals out, whatever the device does."""
         widths = [

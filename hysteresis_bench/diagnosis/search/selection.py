@@ -109,7 +109,8 @@ class Selection:
     def alternatives(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
         """The systems with another effect in the place of an adopted one; of a free form, also another free form."""
         more = [form for form in self.forms if name in self.forms and not self.fitter.stack.effect(form).estimates]
-        return self._sought(self._extensions(self.without(current, name), current, more))
+        others = self._extensions(self.without(current, name), current, more)
+        return self._sought({key: one for key, one in others.items() if not self.fitter.drowned(one, key)})
 
     def rivals(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
         """What would do as well in the place of an adopted effect, or better by too little to take its place."""
@@ -186,7 +187,7 @@ class Selection:
 
     def _round(self, current: Hypothesis) -> Round:
         hypotheses = self._extensions(current)
-        if min((hypothesis.rmse for hypothesis in hypotheses.values()), default=0.0) > MATTERS * self.floor:
+        if min((one.rmse for one in hypotheses.values()), default=0.0) > MATTERS * self.floor:
             hypotheses = self._sought(hypotheses)
         tests = {name: self.fitter.test(current, hypothesis) for name, hypothesis in hypotheses.items()}
         gains = {name: advantage(t.left_out, current.left_out, self.fitter.blocks) for name, t in hypotheses.items()}
@@ -222,8 +223,7 @@ class Selection:
     def named(self, current: Hypothesis) -> Hypothesis:
         """Without the effects that explain less than what is left beside them, the least telling first."""
         while names := self.adopted(current):
-            smaller = self._reduced(current, names)
-            least = min(smaller, key=lambda hypothesis: self.share(hypothesis, current))
+            least = min(self._reduced(current, names), key=lambda hypothesis: self.share(hypothesis, current))
             if self.share(least, current) > NAMED:
                 break
             current = self.exchanged(least) or least

@@ -28,6 +28,8 @@ def takes_the_place(selection: Selection, one: Hypothesis, current: Hypothesis) 
     it must explain more than what then remains over the noise."""
     if claims(one) > claims(current) or one.cv_rmse >= current.cv_rmse:
         return False
+    if any(selection.fitter.drowned(one, name) for name in selection.adopted(one)):
+        return False
     clear = advantage(one.left_out, current.left_out, selection.fitter.blocks) > CLEAR
     return clear and selection.share(current, one) > (NAMED if len(one.values) > len(current.values) else 0.0)
 

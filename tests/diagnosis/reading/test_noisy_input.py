@@ -9,6 +9,7 @@ import pytest
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.signals import Dataset, Record
+from tests.diagnosis.search.handmade import fit
 
 
 def sine(time):
@@ -49,7 +50,7 @@ def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(mon
     module = import_module("hysteresis_bench.diagnosis.around")
     told, found = (
         [],
-        SimpleNamespace(follows=False, best=SimpleNamespace(rmse=left), selection=SimpleNamespace(floor=1.0)),
+        SimpleNamespace(follows=False, best=fit("", left), selection=SimpleNamespace(floor=1.0)),
     )
     prepared = SimpleNamespace(views=(), dataset=Dataset(()))
     prepared.read_as = lambda records, why: told.append(why) or prepared
@@ -64,3 +65,10 @@ def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(mon
     with pytest.raises(Stop):
         module.searched(Dataset(()), Question("bouc-wen"))
     assert told == ([module.SMOOTHED] if again else [])
+
+
+@pytest.mark.parametrize(
+    ("names", "left", "taken"), [("", 1.05, True), ("", 1.07, False), ("a", 0.99, True), ("a", 1.01, False)]
+)
+def test_a_smooth_input_may_leave_a_little_more_in_the_place_of_an_effect(names, left, taken):
+    assert import_module("hysteresis_bench.diagnosis.around").explains_more(fit(names, left), fit("b", 1.0)) == taken

@@ -39,6 +39,7 @@ def selection_of(*fits, floor=FLOOR, candidates="abcd"):
         stack=SimpleNamespace(model=SimpleNamespace(offers={})),
         test=lambda smaller, larger: NestedTest(1e3, 1e-12, 1),
         refitted=lambda hypothesis: hypothesis,
+        drowned=lambda hypothesis, name: False,
     )
     return Selection(fitter, SimpleNamespace(map=answers, asked=asked), floor, tuple(candidates))
 
