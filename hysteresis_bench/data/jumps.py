@@ -15,6 +15,7 @@ from itertools import pairwise
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.parts import parted, parts
 from hysteresis_bench.data.spikes import FAR, MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 
@@ -45,26 +46,13 @@ GAP = 1.5
 MOST = 3
 """A record with more of them has a device that jumps. Of jumps that undo each other it is the device as well."""
 
-FEWEST = 40
-"""Samples of a part that is fitted; a shorter one is left out."""
-
 
 def parted_at_jumps(dataset: Dataset) -> Dataset:
     """The data set with every record parted where its output jumps, and a note on each.
 
     Before spikes are looked for: the step would be taken for half of one.
     """
-    records, notes, held_out = [], list(dataset.notes), list(dataset.held_out_names)
-    for record in dataset.records:
-        found = jumps(record)
-        parts = _parts(record, found)
-        records += parts
-        if found.size:
-            new = [part.name for part in parts if part.name != record.name]
-            held_out += new if record.name in dataset.held_out_names else []
-            after = f" as {' and '.join(new)}" if new else ""
-            notes.append(f"{_words(record, found)} What comes after is fitted with an offset of its own{after}.")
-    return replace(dataset, records=tuple(records), notes=tuple(notes), held_out_names=tuple(held_out))
+    return parted(dataset, _apart)
 
 
 def jumps_in_words(record: Record) -> str:
@@ -120,25 +108,25 @@ def _lone(time: Array, y: Array, gap: int, height: float) -> bool:
     return bool(np.max(np.abs(_lines(time[low:high], moved)[0])) < LEFT * abs(height))
 
 
-def _parts(record: Record, found: Array) -> list[Record]:
-    """From one jump to the next, all before it history, moved to where the part begins; the first keeps the name."""
-    borders = [record.history, *found.tolist(), record.time.size]
-    kept = [(low, high) for low, high in pairwise(borders) if high - low >= FEWEST]
-    if not found.size or not kept:
-        return [record]
-    names = [record.name, *(f"{record.name} from {record.time[low]:.12g}" for low, _ in kept[1:])]
+def _apart(record: Record) -> tuple[tuple[Record, ...], str]:
+    """All before a part is moved to where the part begins."""
+    found = jumps(record)
+    if not found.size:
+        return (record,), ""
     risen = np.zeros(record.time.size)
     for sample in found.tolist():
         risen[sample:] += _height(record, sample)
-    return [_part(record, risen, low, high, name) for (low, high), name in zip(kept, names, strict=True)]
+    own = parts(record, [*pairwise([record.history, *found.tolist(), record.time.size])])
+    moved = tuple(_moved(part, risen) for part in own)
+    return moved, f"{_words(record, found)} What comes after is fitted with an offset of its own"
 
 
-def _part(record: Record, risen: Array, low: int, high: int, name: str) -> Record:
-    """risen : by how much the output has jumped, (samples,);  low, high : first scored sample, and the one behind"""
-    assert record.output is not None
-    output = record.output[:high].copy()
+def _moved(part: Record, risen: Array) -> Record:
+    """risen : by how much the whole record's output has jumped, (samples,)"""
+    assert part.output is not None
+    output, low = part.output.copy(), part.history
     output[:low] += risen[low] - risen[:low]
-    return replace(record.take(slice(0, high), name), output=output, history=low)
+    return replace(part, output=output)
 
 
 def _words(record: Record, found: Array) -> str:

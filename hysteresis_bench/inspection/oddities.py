@@ -12,6 +12,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.spikes import spikes_told
+from hysteresis_bench.data.stuck import stuck_told
 from hysteresis_bench.data.units import frequency_in, seconds_in
 from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.fit.settling import is_closed
@@ -52,6 +53,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         _clipping,
         _aliasing,
         _jitter,
+        stuck_told,
         spikes_told,
         jumps_told,
     )

@@ -1,4 +1,5 @@
-"""What is done about faults of measured outputs before a fit: spikes are bridged, jumps get an offset of their own."""
+"""What is done about faults of measured outputs before a fit: where stuck it is left out, what comes after a jump gets
+an offset of its own, spikes are bridged."""
 
 from __future__ import annotations
 
@@ -7,13 +8,16 @@ from collections.abc import Collection
 from hysteresis_bench import registry
 from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
 from hysteresis_bench.data.spikes import without_spikes
+from hysteresis_bench.data.stuck import parted_where_stuck
 from hysteresis_bench.signals import Dataset, Record
 
 
 def without_faults(dataset: Dataset, effects: Collection[str] = (registry.RECORD_OFFSET,)) -> Dataset:
     """The data set that is fitted with these effects, by name, and a note on every fault that is mended: jumps only
-    where an effect gives every record an offset of its own, and first, as a step would be taken for half of a spike."""
-    return without_spikes(parted_at_jumps(dataset) if registry.RECORD_OFFSET in effects else dataset)
+    where an effect gives every record an offset of its own. What is stuck ends in a leap, which would be taken for a
+    jump; and a step for half of a spike."""
+    sound = parted_where_stuck(dataset)
+    return without_spikes(parted_at_jumps(sound) if registry.RECORD_OFFSET in effects else sound)
 
 
 def jumps_told(record: Record) -> str:
