@@ -17,6 +17,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.parts import parted, parts
 from hysteresis_bench.data.spikes import FAR, MEDIAN
+from hysteresis_bench.data.stuck import stuck
 from hysteresis_bench.signals import Dataset, Record
 
 SIDE = 4
@@ -75,6 +76,8 @@ def jumps(record: Record) -> Array:
     turns = np.abs(right - left) > TURNS * np.maximum(np.abs(left), np.abs(right))
     far = np.flatnonzero((np.abs(misses) > least) & ~driven & ~turns)
     found = np.array([gap for gap in far.tolist() if _lone(time, y, gap, float(misses[gap]))], int)
+    for low, high in stuck(record):  # the leap at its end is no level that stays
+        found = found[np.abs(found + SIDE + record.history - 0.5 * (low + high)) > 0.5 * (high - low) + SIDE]
     if not 0 < found.size <= MOST or abs(float(np.sum(misses[found]))) <= 0.5 * float(np.max(np.abs(misses[found]))):
         return nothing
     return found + SIDE + record.history

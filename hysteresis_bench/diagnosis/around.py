@@ -151,9 +151,9 @@ def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
     question.options.on_step(Step(f"{question.model}: before and after"))
     stages = settle_offset(prepared, found, question)
     left = remainder(stages.after, found.evidence)
-    # slow noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
+    # noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
     # clearly better shows that it is none, and what one excitation leaves may as well be the law's
-    blameless = left.slow and not forms_of(stages.adopted) and found.thin.excitations.varied
+    blameless = left.noise and not forms_of(stages.adopted) and found.thin.excitations.varied
     witnesses = [] if blameless else of_few_parameters(registry.names("models"))
     doubted = doubt(found, question, laws, witnesses)
     if doubted != Doubt():

@@ -32,6 +32,22 @@ def coloured(record: Record, rms: float, rng: Generator) -> Record:
     return replace(record, output=record.output + rms * slow)
 
 
+def heavy_tailed(record: Record, rms: float, rng: Generator) -> Record:
+    """Noise of Student's distribution with three degrees of freedom: few samples are far off."""
+    assert record.output is not None
+    return replace(record, output=record.output + rms * rng.standard_t(3, record.time.size) / np.sqrt(3.0))
+
+
+def stuck(record: Record, rms: float, rng: Generator) -> Record:
+    """A channel that hangs for a twenty-fifth of the record."""
+    measured = noisy(record, rms, rng)
+    assert measured.output is not None
+    output, quarter = measured.output.copy(), record.time.size // 4
+    at = int(rng.integers(quarter, 3 * quarter))
+    output[at : at + record.time.size // 25] = output[at]
+    return replace(measured, output=output)
+
+
 def quantised(record: Record, rms: float, rng: Generator) -> Record:
     """A converter with steps of four times the noise."""
     measured, step = noisy(record, rms, rng), 4.0 * rms
@@ -77,10 +93,12 @@ def in_mid_loop(record: Record, rms: float, rng: Generator) -> Record:
 
 IMPERFECTIONS: Mapping[str, Imperfection] = {
     "coloured": coloured,
+    "heavy-tailed": heavy_tailed,
     "quantised": quantised,
     "noisy-input": noisy_input,
     "spiked": spiked,
     "uneven": uneven,
     "coarse": coarse,
     "in-mid-loop": in_mid_loop,
+    "stuck": stuck,
 }

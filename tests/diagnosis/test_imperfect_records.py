@@ -33,6 +33,21 @@ def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects):
     assert not any("law does not follow" in one for one in found.warnings)
 
 
+@pytest.mark.parametrize("effects", [(), ("creep",)])
+def test_noise_of_heavy_tails_is_told_as_noise(effects):
+    found, _ = found_in("heavy-tailed", effects)
+    assert found.effects == effects
+    assert found.verdict == ("effect-found" if effects else "no-effect-needed")
+    assert any("noise of heavy tails" in one for one in found.warnings)
+
+
+def test_what_a_stuck_channel_says_is_left_out_and_told():
+    found, data = found_in("stuck", ("creep",))
+    assert found.effects == ("creep",)
+    assert sum("did the channel hang" in one for one in found.warnings) == len(data.records)
+    assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
+
+
 def test_spikes_are_bridged_and_told_and_do_not_change_what_is_found():
     found, data = found_in("spiked", ("saturation",))
     assert found.effects == ("saturation",)

@@ -194,5 +194,5 @@ def test_an_imperfect_record_is_the_clean_one_with_one_fault(name):
 
 
 def test_an_unknown_imperfection_is_refused_with_those_that_are_known():
-    with pytest.raises(ValueError, match="imperfect = 'dusty' is not known; there are: coloured, quantised"):
+    with pytest.raises(ValueError, match="imperfect = 'dusty' is not known; there are: coloured, heavy-tailed"):
         HiddenEffects(imperfect="dusty")

@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, f_tail, overlooked
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
+from hysteresis_bench.diagnosis.evidence.noise import clipped_rms
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
@@ -39,13 +40,21 @@ class Remainder:
     slow : nothing is left but noise that changes slowly: correlated from sample to sample, without any cause that was
         measured, described by no term, and no louder where nothing was fitted; and of so many independent samples that
         a cause of `WRONG` times the noise would have been seen in it
+    heavy : nothing is left but noise of heavy tails: not correlated, without a cause or a term either, and most samples
+        are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
     """
 
     equation: Equation | None
     matters: bool
     slow: bool
+    heavy: bool
     louder: bool
+
+    @property
+    def noise(self) -> bool:
+        """Is nothing left but noise, though louder than most samples are from one to the next?"""
+        return self.slow or self.heavy
 
 
 def remainder(stage: Stage, evidence: Evidence) -> Remainder:
@@ -60,12 +69,14 @@ def remainder(stage: Stage, evidence: Evidence) -> Remainder:
     residuals, simulated = left_by(stage, views)
     louder = _louder(stage, residuals, floor)
     if stage.fitted.rmse <= floor or not (loud or telling):
-        return Remainder(None, False, False, louder)
+        return Remainder(None, False, False, False, louder)
     equation = find_terms([view.record for view in views], residuals, simulated)
-    caused = [test for test in tests if test.name not in OF_THE_NOISE and "scatter" not in test.name]
-    slow = any(test.name == "whiteness" for test in tests) and not caused and not equation.terms
-    slow = slow and not louder and _hidden(residuals, len(tests)) <= WRONG * floor
-    return Remainder(equation, not slow, slow, louder)
+    caused = [test for test in telling if test.name not in OF_THE_NOISE]
+    white = not any(test.name == "whiteness" for test in tests)
+    noise = not (caused or equation.terms or louder)
+    slow = noise and not white and _hidden(residuals, len(tests)) <= WRONG * floor
+    heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
+    return Remainder(equation, not (slow or heavy), slow, heavy, louder)
 
 
 def _hidden(residuals: Sequence[Array], tests: int) -> float:

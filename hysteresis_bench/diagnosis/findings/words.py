@@ -87,9 +87,9 @@ class Outcome:
 
     @property
     def leaves_much(self) -> bool:
-        """Is much more left than the noise, slow noise included, on what was fitted or on what was held out?"""
+        """Is much more left than the noise, of any kind, on what was fitted or on what was held out?"""
         fitted, held_out = self.leaves
-        noise = fitted if self.left.slow else 1.0
+        noise = fitted if self.left.noise else 1.0
         return max(fitted, held_out) > WRONG * noise
 
     @property
@@ -255,11 +255,15 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
     elif outcome.doubt.carrying:
         said.append("Ask again without a model: then the law is looked for among all that are known here.")
-    if outcome.left.slow and not outcome.cause:
+    if outcome.left.noise and not outcome.cause:
+        correlated, kind = (
+            ("is correlated, but", "slow noise, or a cause beside the input that these data do not show")
+            if outcome.left.slow
+            else ("is not correlated,", "noise of heavy tails, where few samples are far off")
+        )
         said.append(
-            f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and is "
-            "correlated, but depends on nothing that was measured here, and no term describes it: slow noise, or a "
-            "cause beside the input that these data do not show."
+            f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and "
+            f"{correlated} depends on nothing that was measured here, and no term describes it: {kind}."
         )
     steps = between_samples(after.problem.system, records, after.values)
     if steps > TELLING * floor:

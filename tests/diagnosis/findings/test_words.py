@@ -23,7 +23,9 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
         adopted=adopted,
         found=Of(follows=True, evidence=evidence, final=final, full=full, given_up=more.get("given_up")),
         ties=(),
-        left=Of(matters=not slow and rmse > 0.11, slow=slow, louder=(held_out or 0.0) > 1.25 * max(rmse, 0.1)),
+        left=Of(
+            matters=not slow and rmse > 0.11, slow=slow, noise=slow, louder=(held_out or 0.0) > 1.25 * max(rmse, 0.1)
+        ),
         units={"output": "um"},
         model="dahl",
         doubt=Doubt(agreement=Agreement(needs, dict.fromkeys(needs, 0.3), {})) if needs else Doubt(),
