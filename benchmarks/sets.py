@@ -11,7 +11,7 @@ left out clearly better than the search's: one that the search had fitted, and o
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 from rich.console import Console
 
@@ -31,10 +31,9 @@ WIDTH = 3
 """Sets of every size that are followed."""
 
 
-def better(found: Found, known: Iterable[Hypothesis]) -> Iterator[Hypothesis]:
+def better(found: Found, known: Iterable[Hypothesis]) -> list[Hypothesis]:
     """Those that should have taken the place of what was selected."""
-    if found.best.rmse > found.selection.floor:
-        yield from (one for one in known if takes_the_place(found.selection, one, found.best))
+    return [one for one in known if takes_the_place(found.selection, one, found.best)]
 
 
 def beam(found: Found) -> list[Hypothesis]:
@@ -63,7 +62,7 @@ def main() -> None:
         blind = Dataset(data.records, HELD_OUT)
         with economical():
             found = searched(blind, Question(law, options=DiagnosisOptions(jobs=1))).found
-            missed = {"search": [*better(found, found.selection.known.values())]}
+            missed = {"search": better(found, found.selection.known.values())}
             missed["beam"] = [one for one in better(found, beam(found)) if one not in missed["search"]]
         for who, sets in missed.items():
             counts[who] += bool(sets)

@@ -13,11 +13,11 @@ from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 
 def best_of_all(selection: Selection, current: Hypothesis) -> Hypothesis:
-    """Of all that were fitted, what should stand in the place of the current set, the simplest where there are several;
-    nothing where the current one is near the noise, as names are not given up for a curve there."""
+    """Of all that were fitted, what should stand in the place of the current set, the simplest where there are
+    several."""
     for _ in range(MOST):
         better = [one for one in selection.known.values() if takes_the_place(selection, one, current)]
-        if not better or current.rmse <= MATTERS * selection.floor:
+        if not better:
             break
         current = selection.workers.map([("refitted", selection.simplest(better))])[0]
     return current
@@ -25,7 +25,9 @@ def best_of_all(selection: Selection, current: Hypothesis) -> Hypothesis:
 
 def takes_the_place(selection: Selection, one: Hypothesis, current: Hypothesis) -> bool:
     """Does a set that claims no more predict samples left out clearly better than the current one? With more parameters
-    it must explain more than what then remains over the noise."""
+    it must explain more than what then remains over the noise. Near the noise no names are given up for a curve."""
+    if current.rmse <= MATTERS * selection.floor:
+        return False
     if claims(one) > claims(current) or one.cv_rmse >= current.cv_rmse:
         return False
     if any(selection.fitter.drowned(one, name) for name in selection.adopted(one)):
