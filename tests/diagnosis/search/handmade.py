@@ -36,7 +36,7 @@ def selection_of(*fits, floor=FLOOR, candidates="abcd"):
 
     fitter = SimpleNamespace(
         blocks=BLOCKS,
-        stack=SimpleNamespace(model=SimpleNamespace(offers={})),
+        stack=SimpleNamespace(model=SimpleNamespace(offers={}), effect=lambda name: SimpleNamespace(estimates=False)),
         test=lambda smaller, larger: NestedTest(1e3, 1e-12, 1),
         refitted=lambda hypothesis: hypothesis,
         drowned=lambda hypothesis, name: False,

@@ -38,3 +38,11 @@ def test_no_set_that_claims_more_is_taken():
 def test_near_the_noise_names_stay():
     current = fit("ab", 1.05 * 0.1)
     assert ended(current, fit("cd", 1.0 * 0.1)) is current
+
+
+@pytest.mark.parametrize(("left", "taken"), [(1.15, True), (1.25, False)])
+def test_a_free_form_joins_only_where_it_comes_near_the_noise(left, taken):
+    current, free = fit("ab", 2.0 * 0.1), fit("ac", left * 0.1)
+    selection = selection_of(current, free)
+    selection.known, selection.forms = {one.names: one for one in (current, free)}, ("c",)
+    assert best_of_all(selection, current) is (free if taken else current)
