@@ -1,4 +1,5 @@
 import ctypes
+import gc
 import resource
 import subprocess
 import sys
@@ -8,7 +9,7 @@ import pytest
 from threadpoolctl import threadpool_info
 
 from hysteresis_bench import FitOptions, fit
-from hysteresis_bench.kernels.resources import economical
+from hysteresis_bench.kernels.resources import NEW_OBJECTS, economical
 from hysteresis_bench.signals import Dataset, Record
 
 GLIBC = sys.platform == "linux" and hasattr(ctypes.CDLL(None), "mallopt")
@@ -32,15 +33,27 @@ def test_every_blas_has_one_thread_and_then_as_many_as_before():
 
 
 def test_settings_come_back_after_a_fault():
-    before = threads()
+    before = threads(), gc.get_threshold()
     with pytest.raises(ZeroDivisionError), economical():
         _ = 1 / 0
-    assert threads() == before
+    assert (threads(), gc.get_threshold()) == before
+
+
+@pytest.mark.parametrize(("own", "inside"), [(700, NEW_OBJECTS), (2 * NEW_OBJECTS, 2 * NEW_OBJECTS), (0, 0)])
+def test_garbage_is_collected_less_often_and_never_more(own, inside):
+    before = gc.get_threshold()
+    gc.set_threshold(own, 10, 10)
+    try:
+        with economical():
+            assert gc.get_threshold() == (inside, 10, 10)
+        assert gc.get_threshold() == (own, 10, 10)
+    finally:
+        gc.set_threshold(*before)
 
 
 def test_scipys_own_blas_is_limited_though_nobody_has_imported_it():
     code = """
-from hysteresis_bench.kernels.resources import economical
+from hysteresis_bench.kernels.resources import NEW_OBJECTS, economical
 from threadpoolctl import threadpool_info
 with economical():
     import scipy.linalg

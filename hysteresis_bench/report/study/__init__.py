@@ -7,6 +7,7 @@ from pathlib import Path
 
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.report.trials.compared import Compared
 from hysteresis_bench.report.trials.summary import summarise
 from hysteresis_bench.study.afterwards.closing_files import CLOSING
@@ -21,6 +22,7 @@ FROM_TABLES = "report-from-tables.html"
 """The page where the course of the searches was not kept, beside one that was written when it was there."""
 
 
+@economical()
 def write_report(folder: Path) -> Path:
     """Write summary.csv, claims.csv, tables.tex, figures/*.svg, report.html and closing/diagnosis.html into a results
     folder; returns the page.
