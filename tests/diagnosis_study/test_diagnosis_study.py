@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict, replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -16,7 +17,7 @@ from hysteresis_bench.diagnosis_study.results import CASES, FOLDER, STUDY, read_
 from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
-from hysteresis_bench.report.diagnosis_study.reliability import reliability
+from hysteresis_bench.report.diagnosis_study.reliability import BINS, LEAST, reliability
 from hysteresis_bench.report.diagnosis_study.settled import fates, settled_section, words
 
 STUDIES = Path(__file__).parents[2] / "studies"
@@ -263,12 +264,37 @@ def test_a_family_told_with_its_curve_is_right(hidden, claimed, missed, extra, f
     told = [f"0.{9 - 3 * k}00" for k in range(len(right))]  # a bin each
     sure = " ".join(told)
     case = Case("b", "bouc-wen", 1, "done", "", hidden, claimed, "", "", missed, extra, family, sure)
-    assert [one.right for one in reliability([case])][::-1] == [int(one) for one in right]
+    assert [one.right for one in reliability([case] * LEAST)][::-1] == [LEAST * one for one in right]
+
+
+@pytest.mark.parametrize(("claims", "sizes"), [(0, []), (3, [3]), (49, [12, 12, 12, 13]), (103, [20, 21, 20, 21, 21])])
+def test_bins_hold_equally_many_claims_as_far_as_there_are_enough(claims, sizes):
+    cases = [
+        Case(
+            "b", "bouc-wen", number, "done", hidden="drift", claimed="drift", named="drift", sure=f"0.{900 + number:d}"
+        )
+        for number in range(claims)
+    ]
+    bins = reliability(cases)
+    assert [one.claims for one in bins] == sizes
+    assert len(bins) <= BINS
+    assert all(one.high <= other.low for one, other in pairwise(bins))
+
+
+def test_wrong_claims_told_alike_are_spread_over_the_bins():
+    hidden = {"hidden": "drift", "named": "drift"}
+    cases = [
+        Case(
+            "b", "bouc-wen", number, "done", claimed="drift", sure="0.980", **({"extra": "drift"} if wrong else hidden)
+        )
+        for number, wrong in enumerate([True, False] * 50)
+    ]
+    assert [one.right for one in reliability(cases)] == [10] * 5
 
 
 def test_the_page_holds_probabilities_against_what_was_right(tmp_path):
     (tmp_path / STUDY).write_text(TEXT)
-    claims = [("0.950", ""), ("0.930", ""), ("0.300", "drift"), ("-", "drift")]
+    claims = LEAST * [("0.950", ""), ("0.930", ""), ("0.300", "drift"), ("-", "drift")]
     cases = [
         Case("clean", "bouc-wen", number, "done", claimed="drift", extra=extra, sure=sure, before=1.0, after=1.0)
         if extra
@@ -276,8 +302,8 @@ def test_the_page_holds_probabilities_against_what_was_right(tmp_path):
         for number, (sure, extra) in enumerate(claims)
     ]
     bins = reliability(cases)
-    assert [(one.claims, one.right) for one in bins] == [(1, 0), (2, 2)]
-    assert bins[1].told == pytest.approx(0.94)
+    assert [(one.claims, one.right) for one in bins] == [(LEAST, 0), (LEAST, LEAST), (LEAST, LEAST)]
+    assert [one.told for one in bins] == pytest.approx([0.3, 0.93, 0.95])
     write_tables(tmp_path, cases)
     assert [case.sure for case in read_cases(tmp_path)] == [sure for sure, _ in claims]
     page = write_diagnosis_study_page(tmp_path).read_text()

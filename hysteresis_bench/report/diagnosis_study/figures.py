@@ -45,7 +45,13 @@ def reliability_diagram(folder: Path, bins: Sequence[Bin]) -> Picture:
             low, high = wilson(one.right, one.claims)
             axes.plot([one.told, one.told], [low, high], color=AFTER, linewidth=1.4, zorder=2)
             axes.scatter(one.told, one.right / one.claims, s=26, color=AFTER, linewidth=0, zorder=3)
-        axes.set(xlim=(0, 1.02), ylim=(0, 1.02), xlabel="Probability told", ylabel="Share of right claims")
+        lowest = min([0.8, *(min(one.told, wilson(one.right, one.claims)[0]) for one in bins)])
+        axes.set(
+            xlim=(lowest - 0.02, 1.02),
+            ylim=(lowest - 0.02, 1.02),
+            xlabel="Probability told",
+            ylabel="Share of right claims",
+        )
 
     caption = "Claims in bins of the probability told with them; bars: 95 % intervals. On the line they were right."
     return picture(
