@@ -43,6 +43,7 @@ def predict(
     """Predict the output of DATA ... with a fitted MODEL.json, prepared as for its fit, with an interval beside it."""
     check_file(out, (model, *data), force)
     from hysteresis_bench.data.data_files import read_data, write_csv
+    from hysteresis_bench.fit.checks.faulty_records import counted
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.report.shared.papers import draw_prediction
 
@@ -53,14 +54,15 @@ def predict(
     write_csv(out, predicted)
     errors, within = fitted.errors(measured), _within(known, predicted)
     promised = _promised(fitted, known, int(level))
+    notes = (*predicted.notes, *counted(known.records))
     if plot is not None:
         draw_prediction(plot, known, predicted)
     if as_json:
         found = {name: {**error.as_dict(), "within": within.get(name)} for name, error in errors.items()}
-        say_json({"records": found, "interval": promised, "notes": predicted.notes, "prediction": out, "figure": plot})
+        say_json({"records": found, "interval": promised, "notes": notes, "prediction": out, "figure": plot})
         return
     say_understood(console, measured)
-    say_notes(console, predicted.notes)
+    say_notes(console, notes)
     unit = "" if fitted.units["output"] == "1" else f" {fitted.units['output']}"
     for record, error in errors.items():
         told = f"relative RMS {error.relative_rms:.2%}, largest error {error.max_error:.2%}"

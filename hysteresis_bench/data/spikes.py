@@ -57,14 +57,20 @@ def without_spikes(dataset: Dataset) -> Dataset:
     for record in dataset.records:
         found = spikes(record)
         if found.size and record.output is not None:
+            notes.append(f"{_words(record, found)} {_mended(found)}")
             record = replace(record, output=_bridged(record.time, record.output, found.tolist()))
-            notes.append(_words(record, found))
         records.append(record)
     return replace(dataset, records=tuple(records), notes=tuple(notes))
 
 
 def spikes_told(record: Record) -> str:
     """Where the spikes of a record are and what a fit does with them; empty without any."""
+    found = spikes(record)
+    return f"{_words(record, found)} {_mended(found)}" if found.size else ""
+
+
+def spikes_in_words(record: Record) -> str:
+    """Where the spikes of a record are; empty without any."""
     found = spikes(record)
     return _words(record, found) if found.size else ""
 
@@ -154,6 +160,9 @@ def _words(record: Record, found: Array) -> str:
     one = found.size == 1
     return (
         f"record {record.name}: {'one sample lies' if one else f'{found.size} samples lie'} far off "
-        f"{'its' if one else 'their'} neighbours, which agree with each other (at time {', '.join(times)}{more}). "
-        f"{'It is taken for a spike' if one else 'They are taken for spikes'} and bridged."
+        f"{'its' if one else 'their'} neighbours, which agree with each other (at time {', '.join(times)}{more})."
     )
+
+
+def _mended(found: Array) -> str:
+    return f"{'It is taken for a spike' if found.size == 1 else 'They are taken for spikes'} and bridged."

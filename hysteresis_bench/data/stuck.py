@@ -44,8 +44,14 @@ def parted_where_stuck(dataset: Dataset) -> Dataset:
 
 def stuck_told(record: Record) -> str:
     """Where the output of a record is stuck, and what is done about it; empty where it is not."""
+    words = stuck_in_words(record)
+    return words and f"{words} It is not fitted there; what comes after is a record of its own."
+
+
+def stuck_in_words(record: Record) -> str:
+    """Where the output of a record is stuck; empty where it is not."""
     found = stuck(record)
-    return f"{_words(record, found)} It is not fitted there; what comes after is a record of its own." if found else ""
+    return _words(record, found) if found else ""
 
 
 def stuck(record: Record) -> list[tuple[int, int]]:

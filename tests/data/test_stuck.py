@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.data.stuck import parted_where_stuck, stuck, stuck_told
-from hysteresis_bench.fit.checks.faulty_records import without_faults
+from hysteresis_bench.fit.checks.faulty_records import counted, without_faults
 from hysteresis_bench.inspection.oddities import oddities
 from hysteresis_bench.signals import Dataset, Record
 
@@ -72,3 +72,14 @@ def test_the_leap_at_its_end_is_no_jump_that_stays():
     found = without_faults(Dataset((hung((AT, UP_TO)),)))
     assert found.names == ("loop", "loop from 2.25")
     assert len(found.notes) == 1
+
+
+def test_a_prediction_tells_what_its_errors_count_and_no_device_did():
+    spiked = (CURVE + NOISE).copy()
+    spiked[150] += 3.0
+    moved = np.where(TIME < 2.5, CURVE + NOISE, CURVE + NOISE + 1.0)
+    faulty = [hung((AT, UP_TO)), hung(output=spiked, name="spiked"), hung(output=moved, name="moved")]
+    told = counted([*faulty, hung(name="sound"), replace(hung(), output=None, name="input only")])
+    assert [sentence.split(":")[0] for sentence in told] == ["record loop", "record spiked", "record moved"]
+    assert all(sentence.endswith("The errors count it.") for sentence in told)
+    assert not any("bridged" in sentence or "fitted" in sentence for sentence in told), "nothing is mended"

@@ -3,12 +3,12 @@ an offset of its own, spikes are bridged."""
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 from hysteresis_bench import registry
 from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
-from hysteresis_bench.data.spikes import without_spikes
-from hysteresis_bench.data.stuck import parted_where_stuck
+from hysteresis_bench.data.spikes import spikes_in_words, without_spikes
+from hysteresis_bench.data.stuck import parted_where_stuck, stuck_in_words
 from hysteresis_bench.signals import Dataset, Record
 
 
@@ -27,3 +27,10 @@ def jumps_told(record: Record) -> str:
         f"{words} `diagnose` takes what comes after for a record of its own; so does `fit` with --effect "
         f"{registry.RECORD_OFFSET}, which gives it an offset of its own."
     )
+
+
+def counted(records: Sequence[Record]) -> tuple[str, ...]:
+    """What measured outputs say that no device did, and that an error counts where nothing is mended."""
+    looks = (stuck_in_words, jumps_in_words, spikes_in_words)
+    found = (words for record in records if record.output is not None for look in looks if (words := look(record)))
+    return tuple(f"{words} The errors count it." for words in found)
