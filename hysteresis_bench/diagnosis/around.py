@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared, prepare
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.reading.beginnings import only_in_beginnings, without_beginnings
-from hysteresis_bench.diagnosis.reading.between_samples import FINER, few_samples, with_finer_steps
+from hysteresis_bench.diagnosis.reading.between_samples import few_samples
 from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.reading.past import begun, pasts, with_pasts
@@ -30,6 +30,7 @@ from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MATTERS, 
 from hysteresis_bench.diagnosis.search.sets import claims
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.smooth.smoothing import Rough
+from hysteresis_bench.fit.unseen.between_samples import FINER, with_finer_steps
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 

@@ -22,6 +22,7 @@ from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.fit.unseen.between_samples import few_told
 from hysteresis_bench.fit.unseen.excited import excited, ranges
 from hysteresis_bench.fit.unseen.interval import Interval, interval, interval_of
 from hysteresis_bench.parameters import Parameter
@@ -94,7 +95,9 @@ class FittedModel:
             columns = {**record.columns, **around}
             return replace(record, output=output, history=skipped, units=units, columns=columns)
 
-        notes = [*known.notes, *self.preparation.words(known.records, self.units["time"])]
+        left = self.error.get("fitted", {}).get("rmse", np.inf)
+        few = (few_told(system, self.preparation(record), self.values, left) for record in known.records)
+        notes = [*known.notes, *self.preparation.words(known.records, self.units["time"]), *filter(None, few)]
         if self.schema < SCHEMA:
             notes.append(f"The model file is of schema {self.schema}, which does not tell whether loops were settled.")
         return replace(known.map(predicted), notes=tuple(notes))

@@ -20,6 +20,7 @@ from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.unseen.between_samples import between_samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +28,7 @@ class Stage:
     """A system with its parameters, and how far it is from the measurements.
 
     values : (dimension,), in units;  names : of its effects
+    between : RMS of what finer steps change of the response to what was held out, unit of the output
     """
 
     names: tuple[str, ...]
@@ -35,6 +37,7 @@ class Stage:
     fitted: Accuracy
     held_out: Accuracy | None
     tests: tuple[ResidualTest, ...]
+    between: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +94,7 @@ def stage_of(fitter: Fitter, hypothesis: Hypothesis, prepared: Prepared) -> Stag
         accuracy(system, ready.fitted, values),
         accuracy(system, ready.held_out, values) if ready.held_out else None,
         tuple(residual_tests(prepared.views, residuals)),
+        between_samples(system, ready.held_out, values),
     )
 
 

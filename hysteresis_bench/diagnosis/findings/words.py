@@ -15,13 +15,13 @@ from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis.reading.between_samples import TELLING, between_samples
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import MISFIT
 from hysteresis_bench.fit.checks.advised import advice_with
 from hysteresis_bench.fit.checks.edges import edges_told
 from hysteresis_bench.fit.identifiability.combinations import listed
+from hysteresis_bench.fit.unseen.between_samples import TELLING, between_samples
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,7 +246,12 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             f"{', and what is named may stand in for that' if outcome.doubted else ''}."
         )
     fitted, held_out = outcome.leaves
-    if after.held_out and MISFIT * max(fitted, 1.0) < held_out <= WRONG * max(fitted, 1.0):
+    if after.between > TELLING * max(floor, after.fitted.rmse):
+        said.append(
+            f"The samples of what was held out are few for this law: finer steps between them change its response by "
+            f"{after.between:.2g} (RMS), {rounded(after.between / floor)} times the noise. Its error says little."
+        )
+    elif after.held_out and MISFIT * max(fitted, 1.0) < held_out <= WRONG * max(fitted, 1.0):
         said.append(
             f"What was held out is missed by {rounded(held_out)} times the noise, what was fitted by {rounded(fitted)}:"
             " what was fitted does not tell all. Fit what was held out too, and hold out another excitation."
