@@ -21,12 +21,13 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.pivoting import least_above
+from hysteresis_bench.fit.smooth.starts import starts
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.whole import LeftOut
 
 SOLVED = "Solved, not searched: the least squares of a law as smooth as predicts best what was left out of the fit."
-SCREENED, STEPS = 4, 15
-"""Points of the parameters that are not linear, and steps downhill from the best of them, for each dimension."""
+STEPS = 15
+"""Downhill from the best of the first points, for each of the parameters that are not linear."""
 LIGHTEST, HEAVIEST = -6.0, 3.0
 """Powers of ten between which the weight lies, as a share of what makes both terms alike."""
 WEIGHTS = 25
@@ -110,7 +111,6 @@ class Smoothing:
     def searched(self, out: LeftOut) -> Smoothed:
         """The smoothest law that predicts as well as the best one, as far as what is left out can say so."""
         from scipy.optimize import minimize
-        from scipy.stats.qmc import Halton
 
         dimension = len(self._others) + 1
         near = np.ones((out.blocks.folds, len(self._rows)))
@@ -121,7 +121,7 @@ class Smoothing:
             tried.append(self._predicted(self._equations(point, out.blocks), point, near))
             return _rms(tried[-1])
 
-        points = Halton(dimension, scramble=False).random(SCREENED * dimension + 1)[1:]
+        points = starts([self.problem.space.parameters[row] for row in self._others])
         losses = [left(point) for point in points]
         first, options = points[int(np.argmin(losses))], {"maxfev": STEPS * dimension, "xatol": 1e-3}
         options["fatol"] = 1e-4 * min(losses)
