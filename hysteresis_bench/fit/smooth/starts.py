@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.parameters import Parameter, Space
 
 SCREENED = 4
 """Points for each dimension."""
@@ -40,6 +40,4 @@ def _off(p: Parameter) -> float:
     """Of the unit interval, where it is off; its middle where it switches nothing."""
     if p.null is None:
         return 0.5
-    if p.scaling == "log":
-        return 0.0 if p.null <= p.lower else float(np.log(p.null / p.lower) / np.log(p.upper / p.lower))
-    return float(np.clip((p.null - p.lower) / (p.upper - p.lower), 0.0, 1.0))
+    return float(Space((p,)).to_unit(np.array([[np.clip(p.null, p.lower, p.upper)]]))[0, 0])
