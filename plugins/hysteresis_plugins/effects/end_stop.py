@@ -47,6 +47,14 @@ def _padded(inner: Response, u: Array, hiding: Hiding) -> Array:
     return held
 
 
+def _stiffening(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Felt from the middle on, ever more."""
+    y = inner(u)
+    rise = np.maximum(y / hiding.top, 0.0)
+    held: Array = y - hiding.top * rise * np.tanh(1.5 * hiding.strength * rise**2)
+    return held
+
+
 def _from_below(form: HiddenForm) -> HiddenForm:
     """The same on the other side."""
 
@@ -80,7 +88,7 @@ class StopAbove(Effect):
         "saturation": "where the output reaches one end of its range only, both flatten that end",
     }
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_elastic,)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_rounded, _padded)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_rounded, _padded, _stiffening)
     parameters = (
         Parameter("level", -1.0, 1.0, "{output}", meaning="of the response at which the stop is met"),
         Parameter("share", 0.0, 1.25, null=0.0, meaning="of what would pass the stop that it holds back"),
@@ -120,7 +128,11 @@ class StopBelow(StopAbove):
     levels = (0.0, 0.8)
     held_back = 1.0 - StopAbove.held_back
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_from_below(_elastic),)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_from_below(_rounded), _from_below(_padded))
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (
+        _from_below(_rounded),
+        _from_below(_padded),
+        _from_below(_stiffening),
+    )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.effects.end_stop import stop_below

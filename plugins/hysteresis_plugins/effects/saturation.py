@@ -31,11 +31,14 @@ def _arctangent(inner: Response, u: Array, hiding: Hiding) -> Array:
     return np.arctan(steep * inner(u)) / steep
 
 
-def _one_stop(inner: Response, u: Array, hiding: Hiding) -> Array:
-    """A soft stop on the upper side only."""
-    y = inner(u)
-    rise = np.maximum(y / hiding.top, 0.0)
-    return y - hiding.top * rise * np.tanh(1.5 * hiding.strength * rise**2)
+def _langevin(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """3 L(x), L(x) = coth(x) - 1/x: dipoles that turn into a field. Its end comes as slowly as 1/x."""
+    steep = 6.0 * hiding.strength / hiding.top
+    x = steep * inner(u)
+    small = np.abs(x) < 1e-2  # x (1 - x²/15) to 1e-10, where the difference has no digits left
+    safe = np.where(small, 1.0, x)
+    bent: Array = np.where(small, x * (1.0 - x**2 / 15.0), 3.0 * (1.0 / np.tanh(safe) - 1.0 / safe)) / steep
+    return bent
 
 
 @dataclass(frozen=True)
@@ -55,7 +58,7 @@ class Saturation(Effect):
     acts = "output"
     family = "curve of the output"
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_gentle, _strong)
-    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_arctangent, _one_stop)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_arctangent, _langevin)
     parameters = (
         Parameter("inverse_level", 0.0, 1.0, "1/{output}", null=0.0, meaning="1 / the largest |output|"),
         Parameter("sharpness", 1.0, 20.0, scaling="log", meaning="of the bend, n"),
