@@ -19,19 +19,20 @@ def confusion_matrix(
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        largest = max(counts.values(), default=1)
+        whole = {row: sum(count for (own, _), count in counts.items() if own == row) for row in rows}
         for (row, column), count in counts.items():
             at = columns.index(column), rows.index(row)
             right = column in row.split("|")
             colour = AFTER if right else BEFORE
-            axes.scatter(*at, s=330 * count / largest, color=colour, alpha=0.35, linewidth=0, zorder=2)
+            axes.scatter(*at, s=330 * count / whole[row], color=colour, alpha=0.35, linewidth=0, zorder=2)
             axes.annotate(str(count), at, ha="center", va="center", zorder=3)
         axes.set_xticks(range(len(columns)), columns, rotation=45, ha="right", rotation_mode="anchor")
         axes.set_yticks(range(len(rows)), rows)
         axes.set(xlim=(-0.6, len(columns) - 0.4), ylim=(len(rows) - 0.4, -0.6), xlabel="Claimed", ylabel="Hidden")
 
     size = (1.9 + 0.36 * len(columns), 1.6 + 0.32 * len(rows))
-    caption = "Hidden against claimed, in cases. Blue: the right name. Orange: another name, tied ones included."
+    caption = "Hidden against claimed, in cases. Blue: the right name. Orange: another name, tied ones included. "
+    caption += "Area: the share of its row."
     return picture(folder, name, size, alt="Confusion matrix; the table has the numbers.", caption=caption, draw=draw)
 
 
