@@ -69,13 +69,29 @@ class Fitter:
         return problem.system, np.array([hypothesis.values[name] for name in problem.space.names])
 
     def bare(self, names: frozenset[str]) -> Hypothesis:
-        """A global search, as nothing is known yet; with effects of the user's, also from the model without them."""
+        """As nothing is known yet: from anywhere, and with effects of the user's also from the model without them."""
+        return min([self.from_anywhere(names), *self.step_by_step(names)], key=lambda one: one.rmse)
+
+    def from_anywhere(self, names: frozenset[str]) -> Hypothesis:
+        """A global search."""
         problem = self.stack.problem(names)
         starts = [self._searched(problem, run) for run in range(SEARCHES)]
         centre = np.full((problem.space.dimension, 1), 0.5)
         points = np.column_stack([*starts, self._random(problem, centre)])
-        found = [self._finished(problem, names, points), *self._step_by_step(names)]
-        return min(found, key=lambda one: one.rmse)
+        return self._finished(problem, names, points)
+
+    def step_by_step(self, names: frozenset[str]) -> list[Hypothesis]:
+        """From the model alone, with the user's effects joined one after the other, the one that helps most first; none
+        where there are none. Among many parameters a search from anywhere may miss what the model alone leads to."""
+        own = {*self.stack.own} - names
+        if not own:
+            return []
+        alone = replace(self, stack=replace(self.stack, own=()))
+        current = alone.bare(names | {*self.stack.own} - own)
+        while left := sorted(own - current.names):
+            best = min((alone.extended(current, name) for name in left), key=lambda one: one.rmse)
+            current = alone.refitted(best)
+        return [self.followed(replace(current, names=names))]
 
     def extended(self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None) -> Hypothesis:
         """With one effect more, from several values of its own parameters.
@@ -178,19 +194,6 @@ class Fitter:
             if p.unit == "{input}" and p.null is not None and f"{name}.{p.name}" in hypothesis.values
         ]
         return any(0.0 < width < DROWNED * self._input_noise for width in widths)
-
-    def _step_by_step(self, names: frozenset[str]) -> list[Hypothesis]:
-        """From the model alone, with the user's effects joined one after the other, the one that helps most first; none
-        where there are none. Among many parameters a search from anywhere may miss what the model alone leads to."""
-        own = {*self.stack.own} - names
-        if not own:
-            return []
-        alone = replace(self, stack=replace(self.stack, own=()))
-        current = alone.bare(names | {*self.stack.own} - own)
-        while left := sorted(own - current.names):
-            best = min((alone.extended(current, name) for name in left), key=lambda one: one.rmse)
-            current = alone.refitted(best)
-        return [self.followed(replace(current, names=names))]
 
     def _proposed(self, hypothesis: Hypothesis, name: str) -> list[dict[str, float]]:
         """What the effect itself proposes, from the residuals."""
