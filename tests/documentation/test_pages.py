@@ -82,7 +82,7 @@ def test_what_the_pages_conclude_from_the_kept_results_holds():
     steel = [kept.measurement("electrical steel", f"{which}_after") for which in ("fitted", "held_out")]
     assert steel[1] > 5.0 * steel[0]
     assert kept.law("electrical steel, one loop", "held_out") < 0.5 * steel[1]
-    assert "input-lag or transport-delay" in kept.measurement("piezo, several amplitudes fitted", "ties")
+    assert "output-lag or transport-delay" in kept.measurement("piezo, several amplitudes fitted", "ties")
     assert "To tell lags-after and creep apart" in kept.closing("pea")["advice"]
 
 
