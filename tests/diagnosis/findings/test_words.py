@@ -12,7 +12,8 @@ from hysteresis_bench.diagnosis.search.fallback import Fallback
 def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_before=None, **more):
     """held_out_before : as `held_out` where None;  more : of the search's findings"""
     held = None if held_out is None else Of(rmse=held_out)
-    stage = Of(held_out=held, fitted=Of(rmse=rmse), problem=Of(system=None), values=None)
+    between = more.get("between", 0.0)
+    stage = Of(held_out=held, fitted=Of(rmse=rmse), problem=Of(system=None), values=None, between=between)
     bare = replace_held_out(stage, held_out_before) if held_out_before else stage
     evidence = Of(noise=Of(floor=0.1), floor=0.1)
     final = Of(names=frozenset(), at_bound=(), values={})
@@ -88,6 +89,17 @@ def test_what_was_held_out_and_is_missed_by_a_little_is_told():
     assert told in " ".join(warnings(outcome_of(("creep",), {}, rmse=0.1, held_out=0.18)))
     assert "missed by" not in " ".join(warnings(outcome_of(("creep",), {}, rmse=0.1, held_out=0.11)))
     assert "missed by" not in " ".join(warnings(outcome_of(("creep",), {}, rmse=0.3, held_out=0.35, slow=True)))
+
+
+def test_held_out_records_of_too_few_samples_are_told_in_place_of_what_is_missed():
+    few, enough = (
+        " ".join(warnings(outcome_of(("creep",), {}, rmse=0.1, held_out=0.18, between=between)))
+        for between in (0.04, 0.02)
+    )
+    assert "The samples of what was held out are few for this law: finer steps" in few
+    assert "0.04 (RMS), 0.4 times the noise. Its error says little." in few
+    assert "does not tell all" not in few
+    assert "does not tell all" in enough
 
 
 def test_agreement_on_what_was_fitted_does_not_vouch_for_names_that_fail_on_what_was_held_out():
