@@ -33,18 +33,23 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
     names, named = selection.candidates, selection.named(found)
     forms = selection.fitter.stack.free_forms()
     selection.forms = forms
-    current = named  # what even curves do not explain is the law's, and they its stand-ins
+    current = named
     for start in [found, named] if found.names != named.names else [named]:
         claims = len(selection.adopted(start))
         most = max(claims + 1, CLAIMS) if start is named else claims
         joined = _joined(selection, start, names, most)
-        fits = joined is not start and joined.rmse <= MISFIT * selection.floor
+        fits = joined is not start and _fits(selection, joined)
         if fits and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
     current = best_of_all(selection, _in_place_of_two(selection, _in_place_of_offsets(selection, current)))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
+
+
+def _fits(selection: Selection, system: Hypothesis) -> bool:
+    """Does it come near the noise? What even curves do not explain is the law's, and they its stand-ins."""
+    return system.rmse <= MISFIT * selection.floor
 
 
 def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesis:
@@ -59,7 +64,7 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
     forms = [form for form in selection.forms if form not in current.names and not fitter.stack.effect(form).estimates]
     tried = _in_place(selection, without, forms)
     found = [one for one in tried if one.rmse <= current.rmse and one.cv_rmse <= current.cv_rmse]
-    clear = [one for one in found if _clearly(selection, without, one)]
+    clear = [one for one in found if _fits(selection, one) and _clearly(selection, without, one)]
     return selection.workers.map([("extended", selection.simplest(clear), offset)])[0] if clear else current
 
 
@@ -74,7 +79,8 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
         asked = [form for form in forms if effect(form).family in families]
         smaller = selection.without(selection.without(current, first), second) if asked else current
         tried += selection.workers.map([("extended", smaller, form, current.values) for form in asked])
-    clear = [one for one in tried if advantage(one.left_out, current.left_out, selection.fitter.blocks) > CLEAR]
+    fitting = [one for one in tried if _fits(selection, one)]
+    clear = [one for one in fitting if advantage(one.left_out, current.left_out, selection.fitter.blocks) > CLEAR]
     return selection.workers.map([("refitted", selection.simplest(clear))])[0] if clear else current
 
 

@@ -113,9 +113,10 @@ class Selection:
         return self._sought({key: one for key, one in others.items() if not self.fitter.drowned(one, key)})
 
     def rivals(self, current: Hypothesis, name: str) -> dict[str, Hypothesis]:
-        """What would do as well in the place of an adopted effect, or better by too little to take its place."""
+        """What would do as well in the place of an adopted effect, or near the noise better by too little for it."""
         others = self.alternatives(current, name)
-        return {key: one for key, one in others.items() if one.cv_rmse < current.cv_rmse or self.tied(current, one)}
+        better = current.cv_rmse if current.rmse <= MISFIT * self.floor else 0.0
+        return {key: one for key, one in others.items() if one.cv_rmse < better or self.tied(current, one)}
 
     def without(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
         return self._reduced(hypothesis, [name])[0]
@@ -233,8 +234,7 @@ class Selection:
         names = self.adopted(current)
         if len(names) < 2:
             return None
-        smaller = self._reduced(current, names)
-        spare = [hypothesis for hypothesis in smaller if not self.needed(hypothesis, current)]
+        spare = [hypothesis for hypothesis in self._reduced(current, names) if not self.needed(hypothesis, current)]
         return min(spare, key=lambda hypothesis: hypothesis.cv_rmse) if spare else None
 
     def exchanged(self, current: Hypothesis) -> Hypothesis | None:

@@ -56,6 +56,10 @@ class SecondOrderInputLag(Effect):
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "input-lag": "where one of two lags is short against the fastest movement they are one lag",
+        "output-lag": (
+            "where one of two lags is short against the fastest movement they are one lag, on the other side of the "
+            "hysteresis"
+        ),
         "second-order-lag": (
             "a small lag before the hysteresis and one after it differ only at second order in frequency times lag, "
             "where the loop is not a straight line"

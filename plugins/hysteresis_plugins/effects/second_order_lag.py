@@ -61,6 +61,10 @@ class SecondOrderLag(Effect):
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "output-lag": "where one of two lags is short against the fastest movement they are one lag",
+        "input-lag": (
+            "where one of two lags is short against the fastest movement they are one lag, on the other side of the "
+            "hysteresis"
+        ),
         "creep": "two lags far apart are a share that arrives late",
         "resonance": "about where its gain loses its peak a resonance is a second-order lag",
         "transport-delay": "far below its corner a filter only delays",

@@ -15,14 +15,15 @@ def system(*names, rmse):
 
 
 @pytest.mark.parametrize(
-    ("without", "curve", "names"),
+    ("floor", "without", "curve", "names"),
     [
-        (1.40, 1.00, {"leakage-curve", OFFSET}),  # the formula needs offsets, the curve does not
-        (1.40, 1.09, {"leakage", OFFSET}),  # the records have offsets of their own, which no curve takes over
-        (1.08, 1.00, {"leakage", OFFSET}),  # nothing to speak of hides in the offsets
+        (1.0, 1.40, 1.00, {"leakage-curve", OFFSET}),  # the formula needs offsets, the curve does not
+        (1.0, 1.40, 1.09, {"leakage", OFFSET}),  # the records have offsets of their own, which no curve takes over
+        (1.0, 1.08, 1.00, {"leakage", OFFSET}),  # nothing to speak of hides in the offsets
+        (0.5, 1.40, 1.00, {"leakage", OFFSET}),  # far from the noise the curve follows the law's own fault
     ],
 )
-def test_a_curve_that_does_what_offsets_did_is_taken(monkeypatch, without, curve, names):
+def test_a_curve_that_does_what_offsets_did_is_taken(monkeypatch, floor, without, curve, names):
     current, bare = system("leakage", OFFSET, rmse=1.05), system("leakage", rmse=without)
 
     def answer(questions):
@@ -34,7 +35,7 @@ def test_a_curve_that_does_what_offsets_did_is_taken(monkeypatch, without, curve
         fitter=SimpleNamespace(stack=SimpleNamespace(effect=lambda name: SimpleNamespace(estimates=0))),
         workers=SimpleNamespace(map=answer),
         simplest=lambda systems: systems[0],
-        floor=1.0,
+        floor=floor,
         forms=("leakage-curve",),
     )
     monkeypatch.setattr(free_forms, "_in_place", lambda *rest: [system("leakage-curve", rmse=curve)])

@@ -33,6 +33,13 @@ def test_what_is_better_by_too_little_to_take_a_names_place_is_told_beside_it():
     assert [*selection.rivals(one, "a")] == ["b"]
 
 
+def test_far_from_the_noise_what_is_a_little_better_is_no_rival():
+    bare, one, better = fit("", leaving(9.0)), fit("a", leaving(1.0)), fit("b", leaving(0.85), wave=ASIDE)
+    selection = selection_of(bare, one, better, candidates="ab")
+    assert better.cv_rmse < one.cv_rmse
+    assert not selection.rivals(one, "a")
+
+
 @pytest.mark.parametrize(("share", "named"), [(0.3, ""), (0.45, ""), (0.55, "a"), (0.9, "a")])
 def test_an_effect_is_named_that_explains_more_than_it_leaves(share, named):
     """All of them join, because they pass every test; in the end the smaller ones are dropped."""
