@@ -96,7 +96,7 @@ class FittedModel:
             return replace(record, output=output, history=skipped, units=units, columns=columns)
 
         left = self.error.get("fitted", {}).get("rmse", np.inf)
-        few = (few_told(system, self.preparation(record), self.values, left) for record in known.records)
+        few = (few_told(system, self.preparation(record), values[:, 0], left) for record in known.records)
         notes = [*known.notes, *self.preparation.words(known.records, self.units["time"]), *filter(None, few)]
         if self.schema < SCHEMA:
             notes.append(f"The model file is of schema {self.schema}, which does not tell whether loops were settled.")

@@ -13,8 +13,8 @@ from itertools import combinations
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, MISFIT, NAMED, Selection
-from hysteresis_bench.diagnosis.search.sets import best_of_all
+from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, NAMED, Selection
+from hysteresis_bench.diagnosis.search.sets import best_of_all, fits
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 CURVES, CLAIMS = 2, 3
@@ -38,18 +38,13 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         claims = len(selection.adopted(start))
         most = max(claims + 1, CLAIMS) if start is named else claims
         joined = _joined(selection, start, names, most)
-        fits = joined is not start and _fits(selection, joined)
-        if fits and len(joined.names) <= len(start.names) - claims + most:
+        better = joined is not start and fits(selection, joined)
+        if better and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
     current = best_of_all(selection, _in_place_of_two(selection, _in_place_of_offsets(selection, current)))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
-
-
-def _fits(selection: Selection, system: Hypothesis) -> bool:
-    """Does it come near the noise? What even curves do not explain is the law's, and they its stand-ins."""
-    return system.rmse <= MISFIT * selection.floor
 
 
 def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesis:
@@ -64,7 +59,7 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
     forms = [form for form in selection.forms if form not in current.names and not fitter.stack.effect(form).estimates]
     tried = _in_place(selection, without, forms)
     found = [one for one in tried if one.rmse <= current.rmse and one.cv_rmse <= current.cv_rmse]
-    clear = [one for one in found if _fits(selection, one) and _clearly(selection, without, one)]
+    clear = [one for one in found if fits(selection, one) and _clearly(selection, without, one)]
     return selection.workers.map([("extended", selection.simplest(clear), offset)])[0] if clear else current
 
 
@@ -79,7 +74,7 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
         asked = [form for form in forms if effect(form).family in families]
         smaller = selection.without(selection.without(current, first), second) if asked else current
         tried += selection.workers.map([("extended", smaller, form, current.values) for form in asked])
-    fitting = [one for one in tried if _fits(selection, one)]
+    fitting = [one for one in tried if fits(selection, one)]
     clear = [one for one in fitting if advantage(one.left_out, current.left_out, selection.fitter.blocks) > CLEAR]
     return selection.workers.map([("refitted", selection.simplest(clear))])[0] if clear else current
 
@@ -113,7 +108,7 @@ def _freed(selection: Selection, current: Hypothesis, forms: list[str], beside: 
     better = _thinned(selection, selection.workers.map([("refitted", selection.simplest(_fixed(selection, found)))])[0])
     # beside all that is named a free form is one claim more: a little misfit is too little for it
     more = len(selection.adopted(better)) > len(selection.adopted(current))
-    return None if more and current.rmse <= MISFIT * selection.floor else better
+    return None if more and fits(selection, current) else better
 
 
 def _fixed(selection: Selection, found: list[Hypothesis]) -> list[Hypothesis]:

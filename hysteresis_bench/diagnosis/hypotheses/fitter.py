@@ -87,7 +87,7 @@ class Fitter:
         if not own:
             return []
         alone = replace(self, stack=replace(self.stack, own=()))
-        current = alone.bare(names | {*self.stack.own} - own)
+        current = alone.bare(names)
         while left := sorted(own - current.names):
             best = min((alone.extended(current, name) for name in left), key=lambda one: one.rmse)
             current = alone.refitted(best)

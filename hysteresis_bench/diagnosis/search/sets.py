@@ -29,7 +29,7 @@ def takes_the_place(selection: Selection, one: Hypothesis, current: Hypothesis) 
     from it a free form that joins may be following the law's own fault."""
     if current.rmse <= MATTERS * selection.floor:
         return False
-    if one.rmse > MISFIT * selection.floor and (one.names - current.names) & {*selection.forms}:
+    if not fits(selection, one) and (one.names - current.names) & {*selection.forms}:
         return False
     if claims(one) > claims(current) or one.cv_rmse >= current.cv_rmse:
         return False
@@ -37,6 +37,11 @@ def takes_the_place(selection: Selection, one: Hypothesis, current: Hypothesis) 
         return False
     clear = advantage(one.left_out, current.left_out, selection.fitter.blocks) > CLEAR
     return clear and selection.share(current, one) > (NAMED if len(one.values) > len(current.values) else 0.0)
+
+
+def fits(selection: Selection, one: Hypothesis) -> bool:
+    """Does it come near the noise? What even curves do not explain is the law's, and they its stand-ins."""
+    return one.rmse <= MISFIT * selection.floor
 
 
 def claims(hypothesis: Hypothesis) -> int:

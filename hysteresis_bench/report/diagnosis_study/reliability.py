@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
+from operator import itemgetter
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis_study.case import Case
@@ -39,9 +40,7 @@ class Bin:
 def reliability(cases: Sequence[Case]) -> list[Bin]:
     """Over the claims of all finished cases, from the least probable to the most; none without claims."""
     claims = [claim for case in cases if case.status == "done" for claim in _claims(case)]
-    claims.sort(
-        key=lambda claim: claim[0]
-    )  # by nothing else: of claims told alike, the wrong ones are no less probable
+    claims.sort(key=itemgetter(0))  # by nothing else: of claims told alike the wrong ones come no earlier
     count = min(BINS, max(1, len(claims) // LEAST))
     cuts = [len(claims) * k // count for k in range(count + 1)]
     bins = [claims[first:end] for first, end in pairwise(cuts)]
