@@ -322,6 +322,12 @@ def test_one_loop_does_not_tell_fatigue():
     assert "less than four times" in against("fatigue", record(TIME[:101], DRIVE[:101]))
 
 
+def test_passes_of_a_loop_that_had_settled_do_not_tell_fatigue():
+    loop = record(TIME[:101], DRIVE[:101])
+    assert "less than four times" in against("fatigue", loop.settled(8))
+    assert "less than four times" in against("gain-with-path", loop.settled(8))
+
+
 def test_too_few_samples_have_no_spectrum():
     assert against("periodic-disturbance", record(TIME[:9], DRIVE[:9])) == "no record has 12 samples"
 

@@ -81,7 +81,8 @@ class Fatigue(Effect):
     def inapplicable(self, records: Sequence[Record]) -> str:
         if reason := motionless(records):
             return reason
-        longest = max(float(travelled(record.signal.input)[-1, 0]) for record in records)
+        # a loop that had settled is passed before it is scored, and shows no change with that path
+        longest = max(float(np.ptp(travelled(record.signal.input)[record.scored])) for record in records)
         if longest < SHORTEST * input_span(records):
             return "the input passes through its range less than four times"
         return ""
