@@ -41,6 +41,13 @@ def accuracy(system: System, records: Sequence[Record], values: Array) -> Accura
     return Accuracy(rmse, rmse / scale, largest / scale)
 
 
+def constant_error(system: System, records: Sequence[Record], values: Array) -> float:
+    """RMS of the constants by which the records are missed, 0 without records;  values : (dimension,), in units."""
+    parts = zip(records, simulated(system, records, values), strict=True)
+    squares = [(own.size, float(np.mean(own - record.measured)) ** 2) for record, own in parts]
+    return float(np.sqrt(sum(n * square for n, square in squares) / max(sum(n for n, _ in squares), 1)))
+
+
 def error_table(system: System, values: Array, dataset: Dataset) -> pd.DataFrame:
     """record, role (fitted or held-out), and the accuracy of each;  values : (dimension,), in units."""
     rows = []

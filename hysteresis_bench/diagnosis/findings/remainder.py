@@ -29,6 +29,10 @@ TELLING = 0.03
 DEPENDENCE = 4
 """Columns of a dependence, as on the input."""
 
+MOSTLY = 0.5
+"""Share of the mean square that a constant must be to be told: more than all else. With half of it a model is told so
+that misses the shape as well, with twice of it none."""
+
 OF_THE_NOISE = ("noise-floor", "whiteness", "offset")
 """Tests that slow noise fails, beside those of the scatter; it passes all that ask for a cause."""
 
@@ -104,3 +108,18 @@ def _louder(stage: Stage, residuals: Sequence[Array], floor: float) -> bool:
     corrected = ratio * effective / (effective + 2.0 * stage.values.size)
     p = f_tail(corrected, effective / len(residuals), effective - stage.values.size)
     return ratio > WRONG**2 or (ratio > MISFIT**2 and p < LEVEL)
+
+
+def other_zero(stage: Stage, floor: float, unit: str) -> str:
+    """Is what was held out missed by little more than a constant? Then its zero lies elsewhere, and the shape is right.
+
+    A sentence, or "" where the error is near the noise, or another one;  unit : of the output, as it is told
+    """
+    held_out = stage.held_out
+    if held_out is None or held_out.rmse <= WRONG * floor or stage.constant**2 < MOSTLY * held_out.rmse**2:
+        return ""
+    rest = max(held_out.rmse**2 - stage.constant**2, 0.0) ** 0.5
+    return (
+        f" Of that {stage.constant:.3g}{unit} is a constant: where the zero of what was held out lies, what was fitted "
+        f"does not tell; without it {rest:.3g}{unit} is left."
+    )

@@ -17,7 +17,7 @@ from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.fallback import WORSE
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.fit.accuracy import Accuracy, accuracy
+from hysteresis_bench.fit.accuracy import Accuracy, accuracy, constant_error
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.between_samples import between_samples
@@ -29,6 +29,7 @@ class Stage:
 
     values : (dimension,), in units;  names : of its effects
     between : RMS of what finer steps change of the response to what was held out, unit of the output
+    constant : RMS of the constants by which what was held out is missed
     """
 
     names: tuple[str, ...]
@@ -38,6 +39,7 @@ class Stage:
     held_out: Accuracy | None
     tests: tuple[ResidualTest, ...]
     between: float = 0.0
+    constant: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,6 +97,7 @@ def stage_of(fitter: Fitter, hypothesis: Hypothesis, prepared: Prepared) -> Stag
         accuracy(system, ready.held_out, values) if ready.held_out else None,
         tuple(residual_tests(prepared.views, residuals)),
         between_samples(system, ready.held_out, values),
+        constant_error(system, ready.held_out, values),
     )
 
 

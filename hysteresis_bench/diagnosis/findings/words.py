@@ -12,7 +12,7 @@ from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
-from hysteresis_bench.diagnosis.findings.remainder import Remainder
+from hysteresis_bench.diagnosis.findings.remainder import Remainder, other_zero
 from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import Fallback
@@ -144,6 +144,7 @@ def headline(outcome: Outcome) -> str:
         none = "No effect is named" if outcome.unexplained else "No effect that is known here is missing"
         said = f"{none}: {where} the RMSE is {last.rmse:.3g}{unit}"
     said = f"{said}; the noise is {outcome.evidence.noise.floor:.3g}."
+    said += other_zero(after, outcome.evidence.floor, unit)
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
     if outcome.doubt != Doubt():

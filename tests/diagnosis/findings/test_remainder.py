@@ -5,7 +5,7 @@ from types import SimpleNamespace as Of
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.findings.remainder import _hidden, _louder
+from hysteresis_bench.diagnosis.findings.remainder import _hidden, _louder, other_zero
 
 RECORDS, SAMPLES = 4, 800
 
@@ -60,3 +60,23 @@ def test_one_loop_hides_almost_all_that_it_leaves():
     phase = np.linspace(0.0, 2.0 * np.pi, 2000)
     parts = [np.sin(2.0 * phase), np.cos(2.0 * phase)]
     assert _hidden(parts, 14) > 0.9 * np.sqrt(np.mean(np.concatenate(parts) ** 2))
+
+
+@pytest.mark.parametrize(
+    ("rmse", "constant", "told"),
+    [
+        (1.1, 1.0, True),
+        (1.1, 0.7, False),  # the shape is missed as well
+        (0.15, 0.14, False),  # at the noise of 0.1
+    ],
+)
+def test_a_zero_that_lies_elsewhere_is_told(rmse, constant, told):
+    words = other_zero(Of(held_out=Of(rmse=rmse), constant=constant), 0.1, " um")
+    assert bool(words) is told
+    if told:
+        assert "1 um is a constant" in words
+        assert "0.458 um is left" in words
+
+
+def test_without_held_out_records_no_zero_is_missed():
+    assert other_zero(Of(held_out=None, constant=0.0), 0.1, "") == ""
