@@ -137,6 +137,22 @@ def growing(u: np.ndarray) -> np.ndarray:
     return BOUC_WEN(u) * (1.0 + 0.3 * TIME / TIME[-1])
 
 
+def test_of_a_lone_record_whose_output_turns_late_laws_are_ranked_beside_dynamics():
+    """A law with a lag of its own comes first where the others have none."""
+    lag = System(
+        registry.build("models", "bouc-wen"),
+        registry.build_effects(registry.build("models", "bouc-wen"), ("output-lag",)),
+    )
+    values = {"alpha": 0.5, "beta": 1.2, "gamma": 0.2, "d": 1.5, "output-lag.time_constant": 0.02}
+    u = drive(2.0, 1.5) * (1.0 - 0.3 * TIME)
+    y = lag.simulate(Record(TIME, u, None).signal, np.array([[values[q.name]] for q in lag.parameters]))[:, 0]
+    noisy = y + 0.01 * np.std(y) * np.random.default_rng(4).standard_normal(y.size)
+    options = replace(ONE, laws=("bouc-wen", "hammerstein"))
+    found = ranked(Dataset((Record(TIME, u, noisy, name="run"),)), Question("", options=options), effects_follow=True)
+    assert found.ranked[0] == "bouc-wen"
+    assert found.table.set_index("law")["around"].notna()["bouc-wen"]
+
+
 @pytest.mark.parametrize(("response", "richer"), [(bent, "preisach"), (growing, "maxwell-slip")])
 def test_a_law_of_more_parameters_does_not_take_the_place_of_one_with_an_effect(response, richer):
     asked = Question("", options=replace(ONE, laws=("bouc-wen", richer)))
@@ -157,7 +173,7 @@ def test_laws_are_ranked_with_a_drift_and_linear_dynamics_on_either_side():
     dahl = registry.build("models", "dahl")
     several, one = Stack(dahl, records(BOUC_WEN)), Stack(dahl, (Record(TIME, np.sin(6.0 * TIME), np.sin(6.0 * TIME)),))
     assert (drifts(several), linear_dynamics(several)) == (["record-drift"], ["lags-before", "lags-after"])
-    assert linear_dynamics(one) == ["input-lag", "output-lag"]  # at one frequency no curve can be told
+    assert linear_dynamics(one) == ["input-lag", "creep", "output-lag", "transport-delay"]  # no curve at one frequency
     untimed = replace(one.records[0], units={"time": "sample"})
     assert linear_dynamics(Stack(dahl, (untimed,))) == []
 

@@ -56,8 +56,8 @@ class Comparison:
     """table : a row a law, the best first: law, parameters, fitted, unseen, held_out (RMSE, unit of the output),
     seconds (CPU), reason (why there is no fit)
     chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
-    ranked : what was fitted, as of `ranking`; where effects will be sought around several records and no law without
-    dynamics of its own comes down to the noise alone, of such a one with what may act around it (`_surrounded`)
+    ranked : what was fitted, as of `ranking`; where effects will be sought and no law without dynamics of its own comes
+    down to the noise alone, of such a one with dynamics, or of several records with what may act around it
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -104,9 +104,10 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](passing, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
-        # blocks of a lone record cannot judge between laws with dynamics around them
-        several = effects_follow and len(thin.records) > 1
-        moved = _surrounded(workers, _wanting(fitted, floor), floor) if several else []
+        wanting = _wanting(fitted, floor) if effects_follow else []
+        moved = workers.map([("with_dynamics", law) for law in wanting])
+        if len(thin.records) > 1:  # blocks of a lone record cannot judge between laws with curves around them
+            moved = _surrounded(workers, wanting, moved, floor)
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
@@ -144,9 +145,11 @@ def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
     return still if min((law.rmse for law in still), default=0.0) > MATTERS * floor else []
 
 
-def _surrounded(workers: Workers[Law], laws: Sequence[Law], floor: float) -> list[Law]:
-    """As they predict with what may act around them, tried in rounds while all of them are far from the noise."""
-    moved, alone = workers.map([("with_dynamics", law) for law in laws]), {law.model: law for law in laws}
+def _surrounded(workers: Workers[Law], laws: Sequence[Law], known: Sequence[Law], floor: float) -> list[Law]:
+    """As they predict with what may act around them, tried in rounds while all of them are far from the noise.
+
+    known : the laws with dynamics"""
+    moved, alone = list(known), {law.model: law for law in laws}
     if _far(moved, floor):
         moved = workers.map([("with_any", alone[law.model], law, curves) for law in moved])
     if _far(moved, floor):

@@ -26,13 +26,13 @@ def drifts(stack: Stack) -> list[str]:
 
 
 def linear_dynamics(stack: Stack) -> list[str]:
-    """For either side of the law the free form, or else, as at one frequency, the formula of fewest parameters."""
-
-    def plainness(name: str) -> tuple[bool, int, str]:
-        return not isinstance(stack.effect(name), FreeForm), len(stack.effect(name).parameters), name
-
-    sides = ([name for name in _linear(stack) if stack.effect(name).family == side] for side in SIDES)
-    return [min(names, key=plainness) for names in sides if names]
+    """For either side of the law the free form, or else, as at one frequency, the formulas of what it is made of."""
+    found = []
+    for side in SIDES:
+        names = [name for name in _linear(stack) if stack.effect(name).family == side]
+        free = [name for name in names if isinstance(stack.effect(name), FreeForm)]
+        found += free or [name for name in names if stack.effect(name).relaxes]
+    return found
 
 
 def curves(stack: Stack) -> list[str]:
