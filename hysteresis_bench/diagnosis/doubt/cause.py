@@ -4,9 +4,9 @@ Where the final system predicts excitations left out worse than the noise allows
 every other law is fitted to a part of the samples, with the effects in question. Those that do best there are fitted to
 all, and effects that they do not need are taken off again. A law that predicts clearly better, and leaves less than
 half of the excess over the noise, is told as the cause; so is one that needs no curve and predicts as well as a system
-with one, unless it has more parameters, and the curve is all of the shape that was adopted: a richer law follows one
-curve as well, and shows nothing. What was adopted and is not needed around that law is a stand-in: it stays in the
-model, where it helps to predict, and is not named.
+with one, unless it has more parameters, and the curve is all of the shape that was adopted, if it is any: a richer law
+follows one curve as well, and shows nothing. What was adopted and is not needed around that law is a stand-in: it stays
+in the model, where it helps to predict, and is not named.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def law_as_cause(
     clearly = explains and advantage(best.errors, own.errors, fitter.blocks) > CLEAR
     if not clearly:
         reached = MATTERS * max(own.rmse, floor)
-        most = _in_use(fitter, found.final) if sum(map(is_shape, own.effects)) == 1 else np.inf
+        most = _in_use(fitter, found.final) if sum(map(is_shape, own.effects)) < 2 else np.inf
         as_well = [one for one in predicting if curves and one.parameters <= most and one.rmse <= reached]
         best = min(as_well, key=lambda one: one.rmse, default=NOBODY)
     return None if best is NOBODY else Cause(best.model, best.effects, best.rmse, own.rmse)
