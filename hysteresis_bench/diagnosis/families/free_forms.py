@@ -13,6 +13,7 @@ from itertools import combinations
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.search.fallback import predicts_better
 from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, NAMED, Selection
 from hysteresis_bench.diagnosis.search.sets import best_of_all, fits
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
@@ -42,9 +43,23 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         if better and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
+    if not fits(selection, current):
+        current = _shaped(selection, current, names)
     current = best_of_all(selection, _in_place_of_two(selection, _in_place_of_offsets(selection, current)))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
     return current
+
+
+def _shaped(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
+    """Far from the noise, with curves of the input and of the output, where excitations left out are predicted better.
+
+    They have no dynamics, and make with any law another one of another shape, which may be the device's."""
+    forms = selection.forms
+    selection.forms = tuple(form for form in forms if selection.fitter.stack.effect(form).family.startswith("curve"))
+    joined = _joined(selection, current, names, max(len(selection.adopted(current)) + 1, CLAIMS))
+    selection.forms = forms
+    better = joined is not current and predicts_better(selection.fitter, joined, current, selection.floor)
+    return joined if better else current
 
 
 def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesis:

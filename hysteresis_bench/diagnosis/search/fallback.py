@@ -112,6 +112,11 @@ def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
     return _rms(fitter.unseen(hypothesis))
 
 
+def predicts_better(fitter: Fitter, one: Hypothesis, other: Hypothesis, floor: float) -> bool:
+    """Does it predict excitations left out better? Not where nothing can be left out."""
+    return bool(fitter.excitations.apart) and _predicted(fitter, one, floor) < _predicted(fitter, other, floor)
+
+
 def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> list[Hypothesis]:
     """Without those that predict records left out worse than the best of them, by this share of their mean square."""
     if len(hypotheses) < 2 or len(fitter.stack.records) < 2:

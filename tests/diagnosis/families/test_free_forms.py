@@ -5,14 +5,22 @@ import json
 import numpy as np
 import pytest
 
+from hysteresis_bench import registry
+from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.families.finding import course
+from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis, write_diagnosis
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
+from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
+from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.fit.model_file import read_model
 from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
-from hysteresis_bench.signals import joined
+from hysteresis_bench.signals import Record, joined
 from hysteresis_plugins.effects import drift
 
 FITTED = ("slow", "nested")
@@ -79,3 +87,25 @@ def test_the_files_and_the_page_tell_the_family(diffusive, tmp_path):
 )
 def test_a_course_is_told_in_words(y, words):
     assert course(X, y) == words
+
+
+def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out():
+    """A curve has no dynamics: with it a law of another shape is just another law, where it is no cause."""
+    model = registry.build("models", "jiles-atherton")
+    example, time, rng = model.example, np.linspace(0.0, 10.0, 500), np.random.default_rng(0)
+    values = np.array([example.parameters[p.name] for p in model.parameters])[:, None]
+    records = []
+    for number, (share, frequency) in enumerate(((1.0, 0.3), (0.7, 0.5), (0.85, 0.4))):
+        u = example.amplitude * share * np.sin(2 * np.pi * frequency * time) * (0.6 + 0.04 * time)
+        y = System(model).simulate(Record(time, u, None).signal, values)[:, 0]
+        records.append(Record(time, u, y + 0.001 * np.ptp(y) * rng.standard_normal(y.size), name=f"run {number}"))
+    fitter = Fitter(Stack(registry.build("models", "bouc-wen", {}), tuple(records)))
+    floor = 0.001 * float(np.ptp(records[0].output))
+    selection = Selection(fitter, Workers(fitter, 1), floor, ())
+    bare = fitter.bare(frozenset({registry.RECORD_OFFSET}))
+    found = with_free_forms(selection, bare)
+    curves = selection.adopted(found)
+    assert curves
+    assert {*curves} <= {"input-curve", "output-curve"}
+    assert found.rmse > 1.2 * floor, "it is no name"
+    assert unseen_rmse(fitter, found) < 0.3 * unseen_rmse(fitter, bare)
