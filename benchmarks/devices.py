@@ -124,6 +124,7 @@ DEVICES = (
         options=DiagnosisOptions(skip=0.5),
         laws=GENERAL,
         effects=("transport-delay",),
+        perhaps=("drift",),
         asked=0.15,
     ),
     *(

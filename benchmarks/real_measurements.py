@@ -18,6 +18,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import diagnosed_page
 import measured_page
 import numpy as np
 
@@ -33,7 +34,7 @@ from hysteresis_bench.signals import Dataset, Record
 
 ROOT = Path(__file__).parent.parent
 DATA = Path(os.environ.get("HYSTERESIS_DATA", ROOT.parent / "shared" / "data"))
-NUMBERS, STEPS, LAWS, PAGE = "numbers.csv", "steps.csv", "laws.csv", "report.html"
+NUMBERS, STEPS, LAWS, FOUND, PAGE = "numbers.csv", "steps.csv", "laws.csv", "diagnosed.csv", "report.html"
 BEFORE_LAWS = "What one model that was given lacks, as a diagnosis says that does not look for the law."
 
 
@@ -279,16 +280,20 @@ def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mappin
         if case is not None:
             parts.append(_section(folder, case, one, [step for step in steps if step["case"] == case.name]))
     how = (
-        "By benchmarks/laws.py and benchmarks/real_measurements.py. The measurements are not part of the project; only "
-        "what is derived from them is kept here."
+        "By benchmarks/laws.py, benchmarks/diagnosed.py and benchmarks/real_measurements.py. The measurements are not "
+        "part of the project; only what is derived from them is kept here."
     )
     beside = {LAWS: "a row a device"} if laws is not None else {}
     beside |= {NUMBERS: "a row a diagnosis", STEPS: "error step by step"}
+    if (folder / FOUND).is_file():
+        beside |= {FOUND: "a row a device, with nothing given"}
     made = Section("made", "How it was made", [how, files_beside(beside)])
     diagnoses = Section("summary", "Diagnoses of one given model", [BEFORE_LAWS, _summary(rows)])
     sections = [diagnoses, *parts, made]
     if laws is None:
         return Page("Diagnosis of real measurements", f"{len(parts)} questions", sections).write(folder / PAGE)
+    if (folder / FOUND).is_file():
+        sections = [diagnosed_page.section(diagnosed_page.read(folder / FOUND), laws), *sections]
     sections = [measured_page.section(folder, laws), *sections]
     kicker = "Laws and diagnoses of measured devices"
     return Page("Real measurements", kicker, sections, measured_page.answer(laws)).write(folder / PAGE)

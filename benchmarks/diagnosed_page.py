@@ -1,0 +1,70 @@
+"""A part of the page on real measurements: what `diagnose` finds of every device, where no law is given."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+
+from hysteresis_bench.report.shared.blocks import Bullets, Cell, Table
+from hysteresis_bench.report.shared.page import Section
+from hysteresis_bench.report.shared.text import NONE, listed, number
+
+WORSE = 1.06
+"""Times the error before, or the noise, from which what was found makes a prediction worse (`fallback.WORSE`)."""
+
+
+def read(path: Path) -> pd.DataFrame:
+    """diagnosed.csv"""
+    return pd.read_csv(path).fillna({"effects": "", "stand_ins": ""})
+
+
+def section(rows: pd.DataFrame, laws: pd.DataFrame) -> Section:
+    """laws : of laws.csv, for the polynomial's error and the asked one"""
+    beside = laws.set_index("device")
+    plain, asked = (rows["device"].map(beside[column]) for column in ("polynomial", "asked"))
+    return Section("found", "Law and effects, with nothing given", [_answer(rows, plain), _table(rows, plain, asked)])
+
+
+def _answer(rows: pd.DataFrame, plain: pd.Series) -> Bullets:
+    named = rows[rows["effects"] != ""]
+    limit = rows["before"].clip(lower=rows["floor"]) * WORSE
+    worse = rows[rows["after"] > limit]
+    names = [row.device for row in worse.itertuples() if row.effects]
+    only = [row.device for row in worse.itertuples() if not row.effects]
+    told = [
+        f"In {len(named)} of {len(rows)} an effect is named, by itself or as its family with a curve; of these, what "
+        f"was held out is predicted worse in {listed(names) if names else 'none'}.",
+        f"Only what stands in for the law, and is not named, predicts it worse in {listed(only) if only else 'none'}.",
+    ]
+    over = rows["after"] / plain
+    if (over >= 1.0).any():
+        told.append(f"Worse than a cubic polynomial: {listed(list(rows['device'][over >= 1.0]))}.")
+    return Bullets(told)
+
+
+def _table(rows: pd.DataFrame, plain: pd.Series, asked: pd.Series) -> Table:
+    lines: list[list[str | Cell]] = []
+    for row, cubic, wanted in zip(rows.itertuples(), plain, asked, strict=True):
+        spare = f"; for the law: {listed(row.stand_ins.split())}" if row.stand_ins else ""
+        unit = "" if row.unit == "1" else f", {row.unit}"
+        reached = not pd.isna(wanted) and row.after <= wanted
+        lines.append(
+            [
+                Cell(f"{row.device}{unit}", "prose"),
+                Cell(row.law, "prose"),
+                Cell(f"{listed(row.effects.split()) if row.effects else 'none'}{spare}", "prose"),
+                number(row.before, 3),
+                Cell(number(row.after, 3), "good" if reached else "", strong=True),
+                number(row.constant, 2),
+                number(cubic, 3),
+                NONE if pd.isna(wanted) else number(wanted, 3),
+                number(row.floor, 2),
+            ]
+        )
+    header = ["Device", "Law", "Named", "Before", "After", "A constant of it", "Polynomial", "Asked", "Noise"]
+    note = (
+        "RMSE on what was held out. Other than in the table above, where one record was fitted the zero of what is "
+        "held out is not estimated: a constant is told. Nothing was given: neither a law, nor effects."
+    )
+    return Table("Diagnoses without a law", header, lines, note=note)
