@@ -72,7 +72,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
         try:
             new = diagnosed(device)
         except (UserError, TimeoutError) as error:
-            print(f"{device.name}: {error or f'not ended after {given.timeout} s'}", flush=True)
+            print(f"{device.name}: {str(error) or f'not ended after {given.timeout} s'}", flush=True)
             continue
         finally:
             signal.alarm(0)

@@ -120,4 +120,11 @@ def _excess(one: Standing) -> float:
 def _told(best: Diagnosis, found: Sequence[Around], laws: Comparison) -> str:
     others = [one.standing for one in found if one.question.model != best.model_name]
     rest = "".join(f" {one.law} with its effects reaches {one.unseen:.3g}." for one in others)
+    unseen, few = laws.table.set_index("law")["unseen"], of_few_parameters(laws.ranked)
+    dense = next((law for law in laws.ranked if law not in few and unseen[law] < best.unseen), "")
+    if dense:
+        rest += (
+            f" {dense} alone predicts it to {unseen[dense]:.3g}; among its many parameters effects would be lost, and "
+            f"none is sought around it. Where the prediction counts, not what is missing, take `fit --model {dense}`."
+        )
     return f"{laws.words} With its effects, {best.model_name} predicts what it did not see to {best.unseen:.3g}.{rest}"

@@ -153,6 +153,16 @@ def test_of_a_lone_record_whose_output_turns_late_laws_are_ranked_beside_dynamic
     assert found.table.set_index("law")["around"].notna()["bouc-wen"]
 
 
+def test_of_a_lone_record_far_from_the_noise_nothing_around_a_law_counts():
+    """What is around a wrong law follows its fault."""
+    u = drive(2.0, 1.5) * (1.0 - 0.3 * TIME)
+    y = np.cumsum(np.where(np.diff(u, prepend=u[0]) > 0.0, 1.0, 0.3) * np.abs(np.diff(u, prepend=u[0])))
+    noisy = y + 0.001 * np.std(y) * np.random.default_rng(4).standard_normal(y.size)
+    options = replace(ONE, laws=("bouc-wen", "dahl"))
+    found = ranked(Dataset((Record(TIME, u, noisy, name="run"),)), Question("", options=options), effects_follow=True)
+    assert found.table["around"].isna().all()
+
+
 @pytest.mark.parametrize(("response", "richer"), [(bent, "preisach"), (growing, "maxwell-slip")])
 def test_a_law_of_more_parameters_does_not_take_the_place_of_one_with_an_effect(response, richer):
     asked = Question("", options=replace(ONE, laws=("bouc-wen", richer)))

@@ -1,9 +1,12 @@
 """Of laws that were not given, one without a curve goes before one with it, where it predicts about as well."""
 
+from types import SimpleNamespace as Of
+
+import pandas as pd
 import pytest
 
 from hysteresis_bench.diagnosis.around import Standing
-from hysteresis_bench.diagnosis.diagnose import _preferred
+from hysteresis_bench.diagnosis.diagnose import _preferred, _told
 
 
 def found(unseen, *effects, parameters=5):
@@ -29,3 +32,12 @@ def test_a_curve_makes_another_law(curved, plain, preferred):
 def test_of_those_that_predict_to_the_noise_the_simplest_is_taken():
     dynamic, simple, simpler = found(1.0, parameters=7), found(1.01, "output-lag"), found(1.05, parameters=4)
     assert _preferred([dynamic, simple, simpler]) is simple
+
+
+@pytest.mark.parametrize(("unseen", "told"), [(0.3, True), (0.6, False)])
+def test_a_density_that_predicts_better_alone_is_told(unseen, told):
+    """No effect is sought around a law of so many parameters."""
+    table = pd.DataFrame({"law": ["preisach-hats", "dahl"], "unseen": [unseen, 0.7]})
+    laws = Of(words="Words.", table=table, ranked=("preisach-hats", "dahl"))
+    said = _told(Of(model_name="dahl", unseen=0.5), [], laws)
+    assert ("preisach-hats alone predicts it to 0.3" in said) is told

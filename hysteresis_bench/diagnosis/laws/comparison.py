@@ -57,7 +57,8 @@ class Comparison:
     seconds (CPU), reason (why there is no fit)
     chosen : the law that is expected to predict best, "" where none predicts better than the polynomial
     ranked : what was fitted, as of `ranking`; where effects will be sought and no law without dynamics of its own comes
-    down to the noise alone, of such a one with dynamics, or of several records with what may act around it
+    down to the noise alone, of such a one with dynamics, near the noise, or of several records with what may act around
+    it
     words : why, in a sentence;  floor : RMS below which nothing is judged;  units : of the data
     notes : how it was made;  structure : what the data say before any fit
     """
@@ -106,8 +107,10 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         fitted = workers.map([("law", name) for name in names if name not in reasons])
         wanting = _wanting(fitted, floor) if effects_follow else []
         moved = workers.map([("with_dynamics", law) for law in wanting])
-        if len(thin.records) > 1:  # blocks of a lone record cannot judge between laws with curves around them
+        if len(thin.records) > 1:
             moved = _surrounded(workers, wanting, moved, floor)
+        elif _least(moved) > WRONG * floor:  # of a lone record what is around a wrong law follows its fault
+            moved = []
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
@@ -142,7 +145,7 @@ def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
     """Laws without dynamics of their own, where none comes down to the noise: those with them, or of many parameters,
     may owe their place to an effect that the others lack."""
     still = [law for law in fitted if law.found is not None and is_rate_independent(law.model)]
-    return still if min((law.rmse for law in still), default=0.0) > MATTERS * floor else []
+    return still if _least(still) > MATTERS * floor else []
 
 
 def _surrounded(workers: Workers[Law], laws: Sequence[Law], known: Sequence[Law], floor: float) -> list[Law]:
@@ -160,7 +163,12 @@ def _surrounded(workers: Workers[Law], laws: Sequence[Law], known: Sequence[Law]
 
 def _far(laws: Sequence[Law], floor: float) -> bool:
     """Does the best leave more than a right law may that predicts by many parameters?"""
-    return min((law.rmse for law in laws), default=0.0) > MISFIT * floor
+    return _least(laws) > MISFIT * floor
+
+
+def _least(laws: Sequence[Law]) -> float:
+    """What the best leaves; 0 without laws."""
+    return min((law.rmse for law in laws), default=0.0)
 
 
 def _prepared(dataset: Dataset, question: Question) -> Dataset:
