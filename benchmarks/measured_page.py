@@ -130,8 +130,11 @@ def _how() -> Bullets:
             sentence(
                 "effects behind a law were given, as the source of the data names them: a tester's delay, thresholds "
                 "that grow with the frequency; leakage and the drift of an integrated current, which it says may act, "
-                "stay where the law then predicts better what was left out of its fit; all else the comparison found "
-                "from the fitted records and the inputs of those held out"
+                "stay where the law then predicts better what was left out of its fit, and so do curves of the output "
+                "of magnets, of the input of the FeFET, whose silicon takes a part of the voltage, and of input and "
+                "output of the shape memory alloy, which were asked for after it was seen "
+                "that laws with them predict what is held out better; all else the comparison found from the fitted "
+                "records and the inputs of those held out"
             ),
             sentence(
                 "the coupon S355J2 unloads in its record by up to 650 GPa, three times steel's modulus: six of its "
