@@ -43,7 +43,8 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         if better and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
-    if not fits(selection, current):
+    # parts of a lone record may be one loop again and again, and tell nothing of a shape
+    if len(selection.fitter.stack.records) > 1 and not fits(selection, current):
         current = _shaped(selection, current, names)
     current = best_of_all(selection, _in_place_of_two(selection, _in_place_of_offsets(selection, current)))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
@@ -51,7 +52,7 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
 
 
 def _shaped(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -> Hypothesis:
-    """Far from the noise, with curves of the input and of the output, where excitations left out are predicted better.
+    """Far from the noise, with curves of the input and of the output, where records left out are predicted better.
 
     They have no dynamics, and make with any law another one of another shape, which may be the device's."""
     forms = selection.forms

@@ -113,8 +113,8 @@ def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
 
 
 def predicts_better(fitter: Fitter, one: Hypothesis, other: Hypothesis, floor: float) -> bool:
-    """Does it predict excitations left out better? Not where nothing can be left out."""
-    return bool(fitter.excitations.apart) and _predicted(fitter, one, floor) < _predicted(fitter, other, floor)
+    """Does it predict what can be left out better?"""
+    return _predicted(fitter, one, floor) < _predicted(fitter, other, floor)
 
 
 def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> list[Hypothesis]:
