@@ -43,8 +43,8 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
         if better and len(joined.names) <= len(start.names) - claims + most:
             current = joined
             break
-    # parts of a lone record may be one loop again and again, and tell nothing of a shape
-    if len(selection.fitter.stack.records) > 1 and not fits(selection, current):
+    # neither parts of a lone record, maybe one loop again and again, nor what lies beyond all others tells of a shape
+    if selection.fitter.excitations.inner and not fits(selection, current):
         current = _shaped(selection, current, names)
     current = best_of_all(selection, _in_place_of_two(selection, _in_place_of_offsets(selection, current)))
     selection.candidates = (*names, *(form for form in forms if form in current.names))
