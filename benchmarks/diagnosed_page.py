@@ -12,6 +12,8 @@ from hysteresis_bench.report.shared.text import NONE, listed, number
 
 WORSE = 1.06
 """Times the error before, or the noise, from which what was found makes a prediction worse (`fallback.WORSE`)."""
+NEXT_TO_NOTHING = 0.001
+"""Share of the error below which a constant is none, as where every record's own is estimated."""
 
 
 def read(path: Path) -> pd.DataFrame:
@@ -23,10 +25,12 @@ def section(rows: pd.DataFrame, laws: pd.DataFrame) -> Section:
     """laws : of laws.csv, for the polynomial's error and the asked one"""
     beside = laws.set_index("device")
     plain, asked = (rows["device"].map(beside[column]) for column in ("polynomial", "asked"))
-    return Section("found", "Law and effects, with nothing given", [_answer(rows, plain), _table(rows, plain, asked)])
+    missing = [device for device in laws["device"] if device not in {*rows["device"]}]
+    said = _answer(rows, plain, missing)
+    return Section("found", "Law and effects, with nothing given", [said, _table(rows, plain, asked)])
 
 
-def _answer(rows: pd.DataFrame, plain: pd.Series) -> Bullets:
+def _answer(rows: pd.DataFrame, plain: pd.Series, missing: list[str]) -> Bullets:
     named = rows[rows["effects"] != ""]
     limit = rows["before"].clip(lower=rows["floor"]) * WORSE
     worse = rows[rows["after"] > limit]
@@ -40,6 +44,8 @@ def _answer(rows: pd.DataFrame, plain: pd.Series) -> Bullets:
     over = rows["after"] / plain
     if (over >= 1.0).any():
         told.append(f"Worse than a cubic polynomial: {listed(list(rows['device'][over >= 1.0]))}.")
+    if missing:
+        told.append(f"Not asked, or not ended in ten minutes: {listed(missing)}.")
     return Bullets(told)
 
 
@@ -52,19 +58,19 @@ def _table(rows: pd.DataFrame, plain: pd.Series, asked: pd.Series) -> Table:
         lines.append(
             [
                 Cell(f"{row.device}{unit}", "prose"),
-                Cell(row.law, "prose"),
+                row.law,
                 Cell(f"{listed(row.effects.split()) if row.effects else 'none'}{spare}", "prose"),
                 number(row.before, 3),
                 Cell(number(row.after, 3), "good" if reached else "", strong=True),
-                number(row.constant, 2),
+                number(row.constant, 2) if row.constant > NEXT_TO_NOTHING * row.after else "0",
                 number(cubic, 3),
                 NONE if pd.isna(wanted) else number(wanted, 3),
                 number(row.floor, 2),
             ]
         )
-    header = ["Device", "Law", "Named", "Before", "After", "A constant of it", "Polynomial", "Asked", "Noise"]
+    header = ["Device", "Law", "Named", "Before", "After", "Constant", "Polynomial", "Asked", "Noise"]
     note = (
         "RMSE on what was held out. Other than in the table above, where one record was fitted the zero of what is "
-        "held out is not estimated: a constant is told. Nothing was given: neither a law, nor effects."
+        "held out is not estimated: the constant is a part of the error. Nothing was given: neither a law, nor effects."
     )
     return Table("Diagnoses without a law", header, lines, note=note)
