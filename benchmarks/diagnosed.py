@@ -3,8 +3,8 @@
     python benchmarks/diagnosed.py [NAME ...] [--out results/real-measurements] [--timeout SECONDS]
 
 Looks for the data in the folder that HYSTERESIS_DATA names, or in ../shared/data beside the checkout. Devices and
-splits are those of devices.py; no effect is given, and no law. It keeps what is derived: a row a device. Devices that
-are there already are kept; name one to diagnose it again.
+splits are those of devices.py; no effect is given, and no law. It keeps what is derived: a row a device, which
+real_measurements.py puts on its page. Devices that are there already are kept; name one to diagnose it again.
 """
 
 from __future__ import annotations
@@ -18,12 +18,13 @@ from pathlib import Path
 
 import pandas as pd
 from devices import DEVICES, Device, records_of
-from real_measurements import DATA, ROOT
+from real_measurements import DATA, FOUND, ROOT
 
 from hysteresis_bench import diagnose
 from hysteresis_bench.errors import UserError
 
-NUMBERS = "diagnosed.csv"
+LATE = 600
+"""Seconds after which a diagnosis is given up: the ten minutes that the page tells of."""
 
 
 def diagnosed(device: Device) -> dict[str, object]:
@@ -57,9 +58,9 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*")
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "real-measurements")
-    parser.add_argument("--timeout", type=int, default=900)
+    parser.add_argument("--timeout", type=int, default=LATE)
     given = parser.parse_args(arguments)
-    path = given.out / NUMBERS
+    path = given.out / FOUND
     rows = pd.read_csv(path, keep_default_na=False) if path.is_file() else pd.DataFrame(columns=["device"])
     signal.signal(signal.SIGALRM, _late)
     for device in DEVICES:

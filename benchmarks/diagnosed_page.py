@@ -6,12 +6,11 @@ from pathlib import Path
 
 import pandas as pd
 
+from hysteresis_bench.diagnosis.search.fallback import WORSE
 from hysteresis_bench.report.shared.blocks import Bullets, Cell, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import NONE, listed, number
 
-WORSE = 1.06
-"""Times the error before, or the noise, from which what was found makes a prediction worse (`fallback.WORSE`)."""
 NEXT_TO_NOTHING = 0.001
 """Share of the error below which a constant is none, as where every record's own is estimated."""
 

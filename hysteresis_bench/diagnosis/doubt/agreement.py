@@ -17,13 +17,14 @@ from dataclasses import dataclass
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
+from hysteresis_bench.diagnosis.hypotheses.systems import is_curve
 
 
 def is_shape(name: str) -> bool:
     """Has it no dynamics, so that with a rate-independent law it makes another one? What acts inside the state equation
     has some."""
-    family = registry.effect(name).family
-    return family.startswith("curve") or (family == "law" and name not in registry.offered())
+    effect = registry.effect(name)
+    return is_curve(effect) or (effect.family == "law" and name not in registry.offered())
 
 
 def is_rate_independent(law: str) -> bool:

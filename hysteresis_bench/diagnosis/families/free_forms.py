@@ -13,6 +13,7 @@ from itertools import combinations
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.systems import is_curve
 from hysteresis_bench.diagnosis.search.fallback import predicts_better
 from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, NAMED, Selection
 from hysteresis_bench.diagnosis.search.sets import best_of_all, fits
@@ -56,7 +57,7 @@ def _shaped(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -
 
     They have no dynamics, and make with any law another one of another shape, which may be the device's."""
     forms = selection.forms
-    selection.forms = tuple(form for form in forms if selection.fitter.stack.effect(form).family.startswith("curve"))
+    selection.forms = tuple(form for form in forms if is_curve(selection.fitter.stack.effect(form)))
     joined = _joined(selection, current, names, max(len(selection.adopted(current)) + 1, CLAIMS))
     selection.forms = forms
     better = joined is not current and predicts_better(selection.fitter, joined, current, selection.floor)

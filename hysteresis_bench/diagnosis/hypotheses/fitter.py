@@ -16,7 +16,7 @@ from hysteresis_bench.diagnosis.evidence.noise import fast_noise
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.starts import grid
-from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack, is_curve
 from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_of, split, values_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
@@ -116,7 +116,7 @@ class Fitter:
             points = np.column_stack([points, exchanged[:, best]])
         found = self._finished(problem, names, points)
         # a curve may take over what the shape of the law alone was bent to
-        curve = linear and self.stack.effect(name).family.startswith("curve")
+        curve = linear and is_curve(self.stack.effect(name))
         return min(found, self.from_anywhere(names), key=lambda one: one.rmse) if curve else found
 
     def reduced(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
@@ -160,17 +160,15 @@ class Fitter:
         further than all others, those of its blocks."""
         if len(self.stack.records) == 1:
             return hypothesis.left_out
-        problem = self.stack.problem(hypothesis.names)
-        return left_out_errors(problem, point_of(problem, hypothesis.values), self._whole, FURTHER)
-
-    @cached_property
-    def _whole(self) -> Blocks:
-        return left_out(self.stack.records).blocks
+        return self._without(hypothesis, left_out(self.stack.records).blocks)
 
     def apart(self, hypothesis: Hypothesis) -> Array:
         """Errors (scored samples,) of every record, of a lone one of every part, by a fit to the others."""
-        problem, number = self.stack.problem(hypothesis.names), self.excitations.number
-        blocks = Blocks(number, number, int(number.max()) + 1)
+        number = self.excitations.number
+        return self._without(hypothesis, Blocks(number, number, int(number.max()) + 1))
+
+    def _without(self, hypothesis: Hypothesis, blocks: Blocks) -> Array:
+        problem = self.stack.problem(hypothesis.names)
         return left_out_errors(problem, point_of(problem, hypothesis.values), blocks, FURTHER)
 
     def errors(self, names: Collection[str], values: Array) -> Array:

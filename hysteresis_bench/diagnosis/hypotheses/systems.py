@@ -24,6 +24,11 @@ def place(name: str, effect: type[Effect]) -> tuple[int, bool, int, str]:
     return get_args(Acts).index(effect.acts), effect.nuisance, get_args(Family).index(effect.family), name
 
 
+def is_curve(effect: Effect | type[Effect]) -> bool:
+    """Is its family the curve of the input, or of the output?"""
+    return effect.family.startswith("curve")
+
+
 @dataclass(frozen=True, eq=False)
 class Stack:
     """A model, and systems made of it and of effects given by name; the records that are fitted.
