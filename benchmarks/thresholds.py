@@ -1,6 +1,6 @@
 """What halving and doubling each threshold of the diagnosis does to its verdicts, on made cases.
 
-    python benchmarks/thresholds.py [--cases 18] [--seed 0]
+    python benchmarks/thresholds.py [--cases 18] [--seed 0] [--jobs 1]
 
 A verdict is what is named, tied, left as a curve, or told to stand in for the law, and whether anything is left. Of a
 ratio that means something from 1 on, such as 1.06, the excess over 1 is halved and doubled; of a share of a whole, what
@@ -17,8 +17,10 @@ import importlib
 import pkgutil
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from functools import partial
+from itertools import islice
 from pathlib import Path
 from types import ModuleType
 
@@ -59,6 +61,7 @@ THRESHOLDS: tuple[tuple[str, str, Callable[[float, float], float]], ...] = (
     ("diagnosis.findings.remainder", "REMAINS", RATIO),
 )
 """Module, name, and what becomes of a value times a factor."""
+CHANGES = tuple((*one, factor) for one in THRESHOLDS for factor in (0.5, 2.0))
 MAKERS = ("bouc-wen", "jiles-atherton", "prandtl-ishlinskii-modified", "dahl", "ferroelectric")
 FITTED, HELD_OUT = ("slow", "fast", "nested", "sweep"), ("mixed",)
 
@@ -70,30 +73,58 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--cases", type=int, default=18)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--jobs", type=int, default=1)
     told = parser.parse_args()
+    console = Console(width=120, highlight=False)
+    changes: list[list[str]] = [[] for _ in CHANGES]
+    names = 0
+    with ProcessPoolExecutor(told.jobs) as pool:
+        asked = [pool.submit(changed_by, told.cases, told.seed, number) for number in range(told.cases)]
+        for done, one in enumerate(as_completed(asked), 1):
+            number, law, by = one.result()
+            for change, named in by.items():
+                changes[change].append(f"{number} ({law}{', claims' if named else ''})")
+                names += named
+            words = (f"{_words(change)}{' (claims)' if named else ''}" for change, named in by.items())
+            console.print(f"case {number} ({law}), {done} of {told.cases}: {'; '.join(words) or 'none'}")
+    console.print(
+        "Verdicts that change where a threshold is halved, and doubled; of these with 'claims', what is claimed"
+    )
+    for change, numbers in enumerate(changes):
+        console.print(f"{_words(change):64s} {len(numbers):2d}   {', '.join(numbers) or 'none'}")
+    shares = [len(one) / told.cases for one in changes]
+    mean, claims = np.mean(shares), names / (len(CHANGES) * told.cases)
+    console.print(
+        f"worst {100 * max(shares):.1f} %, mean {100 * mean:.1f} % of the verdicts, asked at most 2 %; "
+        f"what is claimed: mean {100 * claims:.1f} %"
+    )
+
+
+def changed_by(count: int, seed: int, number: int) -> tuple[int, str, dict[int, bool]]:
+    """Which changes give one case another verdict, and whether what is claimed is another."""
     modules = [
         importlib.import_module(one.name)
         for room in ROOMS
         for one in pkgutil.walk_packages(importlib.import_module(room).__path__, f"{room}.")
     ]
-    cases = list(made(told.cases, told.seed))
-    console = Console(width=100, highlight=False)
+    case = next(islice(made(count, seed), number, None))
+    by = {}
     with tempfile.TemporaryDirectory() as folder:
-        kept = [Journal(Path(folder) / f"{number}.jsonl", str(number)) for number in range(len(cases))]
-        plain = [verdict(case, journal) for case, journal in zip(cases, kept, strict=True)]
-        console.print(f"{len(cases)} cases; verdicts that change where a threshold is halved, and doubled")
-        worst = 0.0
-        for home, name, times in THRESHOLDS:
+        kept = Journal(Path(folder) / "fits.jsonl", str(number))
+        plain = verdict(case, kept)
+        for change, (home, name, times, factor) in enumerate(CHANGES):
             value = getattr(importlib.import_module(f"{HOME}.{home}"), name)
-            row = []
-            for factor in (0.5, 2.0):
-                with changed(modules, f"{HOME}.{home}", name, times(value, factor)):
-                    found = [verdict(case, journal) for case, journal in zip(cases, kept, strict=True)]
-                row.append([number for number, pair in enumerate(zip(plain, found, strict=True)) if pair[0] != pair[1]])
-            worst = max(worst, *(len(one) / len(cases) for one in row))
-            told_cases = "; ".join(", ".join(f"{n} ({cases[n][0]})" for n in one) or "none" for one in row)
-            console.print(f"{home + '.' + name:38s} {value:<7g} {len(row[0]):2d} {len(row[1]):2d}   {told_cases}")
-        console.print(f"worst: {100 * worst:.1f} % of the verdicts, asked at most 2 %")
+            with changed(modules, f"{HOME}.{home}", name, times(value, factor)):
+                found = verdict(case, kept)
+            if found != plain:
+                by[change] = found[:2] != plain[:2]
+    return number, case[0], by
+
+
+def _words(change: int) -> str:
+    home, name, times, factor = CHANGES[change]
+    value = getattr(importlib.import_module(f"{HOME}.{home}"), name)
+    return f"{home}.{name} {value:g} to {times(value, factor):.4g}"
 
 
 def made(count: int, seed: int) -> Iterator[Case]:
