@@ -20,9 +20,9 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor, as_completed
 from contextlib import contextmanager
 from functools import partial
-from itertools import islice
 from pathlib import Path
 from types import ModuleType
+from typing import NamedTuple
 
 import numpy as np
 from rich.console import Console
@@ -65,8 +65,30 @@ CHANGES = tuple((*one, factor) for one in THRESHOLDS for factor in (0.5, 2.0))
 MAKERS = ("bouc-wen", "jiles-atherton", "prandtl-ishlinskii-modified", "dahl", "ferroelectric")
 FITTED, HELD_OUT = ("slow", "fast", "nested", "sweep"), ("mixed",)
 
-Verdict = tuple[object, ...]
-Case = tuple[str, Dataset]
+
+class Case(NamedTuple):
+    """The law that is asked about, and what makes the records. Records are measured where they are diagnosed."""
+
+    law: str
+    settings: dict[str, object]
+    seed: int
+    number: int
+
+    def dataset(self) -> Dataset:
+        rig = registry.build("rigs", "hidden-effects", self.settings)
+        records = measure(rig, [*FITTED, *HELD_OUT], "thresholds", self.seed, self.number).records
+        return Dataset(records, HELD_OUT)
+
+
+class Verdict(NamedTuple):
+    word: str
+    named: frozenset[str]
+    stand_ins: frozenset[str]
+    ties: frozenset[tuple[str, str]]
+
+    def claims_as(self, other: Verdict) -> bool:
+        """Does it claim the same as the other one? Ties and what stands in for the law claim nothing."""
+        return (self.word, self.named) == (other.word, other.named)
 
 
 def main() -> None:
@@ -79,14 +101,14 @@ def main() -> None:
     changes: list[list[str]] = [[] for _ in CHANGES]
     names = 0
     with ProcessPoolExecutor(told.jobs) as pool:
-        asked = [pool.submit(changed_by, told.cases, told.seed, number) for number in range(told.cases)]
+        asked = {pool.submit(changed_by, case): case for case in made(told.cases, told.seed)}
         for done, one in enumerate(as_completed(asked), 1):
-            number, law, by = one.result()
+            by, case = one.result(), f"{asked[one].number} ({asked[one].law})"
             for change, named in by.items():
-                changes[change].append(f"{number} ({law}{', claims' if named else ''})")
+                changes[change].append(f"{case}{' claims' if named else ''}")
                 names += named
             words = (f"{_words(change)}{' (claims)' if named else ''}" for change, named in by.items())
-            console.print(f"case {number} ({law}), {done} of {told.cases}: {'; '.join(words) or 'none'}")
+            console.print(f"case {case}, {done} of {told.cases}: {'; '.join(words) or 'none'}")
     console.print(
         "Verdicts that change where a threshold is halved, and doubled; of these with 'claims', what is claimed"
     )
@@ -100,25 +122,24 @@ def main() -> None:
     )
 
 
-def changed_by(count: int, seed: int, number: int) -> tuple[int, str, dict[int, bool]]:
+def changed_by(case: Case) -> dict[int, bool]:
     """Which changes give one case another verdict, and whether what is claimed is another."""
     modules = [
         importlib.import_module(one.name)
         for room in ROOMS
         for one in pkgutil.walk_packages(importlib.import_module(room).__path__, f"{room}.")
     ]
-    case = next(islice(made(count, seed), number, None))
-    by = {}
+    by, dataset = {}, case.dataset()
     with tempfile.TemporaryDirectory() as folder:
-        kept = Journal(Path(folder) / "fits.jsonl", str(number))
-        plain = verdict(case, kept)
+        kept = Journal(Path(folder) / "fits.jsonl", "case")
+        plain = verdict(dataset, case.law, kept)
         for change, (home, name, times, factor) in enumerate(CHANGES):
             value = getattr(importlib.import_module(f"{HOME}.{home}"), name)
             with changed(modules, f"{HOME}.{home}", name, times(value, factor)):
-                found = verdict(case, kept)
+                found = verdict(dataset, case.law, kept)
             if found != plain:
-                by[change] = found[:2] != plain[:2]
-    return number, case[0], by
+                by[change] = not found.claims_as(plain)
+    return by
 
 
 def _words(change: int) -> str:
@@ -128,22 +149,18 @@ def _words(change: int) -> str:
 
 
 def made(count: int, seed: int) -> Iterator[Case]:
-    """The law that is asked about, and the records."""
     rng = np.random.default_rng([seed, 20261122])
     for number in range(count):
         law = MAKERS[rng.integers(len(MAKERS))]
         asked = MAKERS[rng.integers(len(MAKERS))] if number % 3 == 2 else law
         settings = {"model": law, "hide": int(rng.integers(0, 3)), "draw": int(rng.integers(10**6))}
-        rig = registry.build("rigs", "hidden-effects", settings | {"other": number % 3 == 1})
-        dataset = measure(rig, [*FITTED, *HELD_OUT], "thresholds", seed, number)
-        yield asked, Dataset(dataset.records, HELD_OUT)
+        yield Case(asked, settings | {"other": number % 3 == 1}, seed, number)
 
 
-def verdict(case: Case, kept: Journal) -> Verdict:
-    asked, dataset = case
-    found = diagnose(dataset, asked, options=DiagnosisOptions(jobs=1, kept=kept))
+def verdict(dataset: Dataset, law: str, kept: Journal) -> Verdict:
+    found = diagnose(dataset, law, options=DiagnosisOptions(jobs=1, kept=kept))
     ties = frozenset((tie.effect, tie.rival) for tie in found.ties)
-    return found.verdict, frozenset(found.effects), frozenset(found.stand_ins), ties
+    return Verdict(found.verdict, frozenset(found.effects), frozenset(found.stand_ins), ties)
 
 
 @contextmanager
