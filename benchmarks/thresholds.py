@@ -50,6 +50,7 @@ RATIO, NUMBER = partial(counted_from, 1.0), partial(counted_from, 0.0)
 THRESHOLDS: tuple[tuple[str, str, Callable[[float, float], float]], ...] = (
     ("diagnosis.search.selection", "LEVEL", NUMBER),
     ("diagnosis.search.selection", "MATTERS", RATIO),
+    ("diagnosis.search.selection", "REACHED", RATIO),
     ("diagnosis.search.selection", "SHARE", share),
     ("diagnosis.search.selection", "NAMED", share),
     ("diagnosis.search.selection", "CLOSE", NUMBER),

@@ -23,7 +23,7 @@ from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.diagnosis.search.selection import MATTERS, NAMED
+from hysteresis_bench.diagnosis.search.selection import NAMED, REACHED
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 from hysteresis_bench.signals import Record
 
@@ -63,15 +63,15 @@ def law_as_cause(
     curves = forms_of(own.effects)
     own_few = replace(fitter, stack=replace(fitter.stack, records=few))
     left = own_few.errors(found.final.names, fitter.fitted(found.final)[1])
-    reach = float(np.sqrt(np.mean(left**2))) * (MATTERS if curves else 1.0)
+    reach = float(np.sqrt(np.mean(left**2))) * (REACHED if curves else 1.0)
     promising = [one.model for one in sorted(screened, key=lambda one: one.rmse)[:PURSUED] if one.rmse < reach]
     predicting = workers.map([("predicting", name) for name in promising])
     best = min(predicting, key=lambda one: one.rmse, default=NOBODY)
     explained, excess = own.rmse**2 - best.rmse**2, own.rmse**2 - floor**2
-    explains = own.rmse > MATTERS * best.rmse and explained > NAMED * excess
+    explains = own.rmse > REACHED * best.rmse and explained > NAMED * excess
     clearly = explains and advantage(best.errors, own.errors, fitter.blocks) > CLEAR
     if not clearly:
-        reached = MATTERS * max(own.rmse, floor)
+        reached = REACHED * max(own.rmse, floor)
         most = _in_use(fitter, found.final) if sum(map(is_shape, own.effects)) < 2 else np.inf
         as_well = [one for one in predicting if curves and one.parameters <= most and one.rmse <= reached]
         best = min(as_well, key=lambda one: one.rmse, default=NOBODY)

@@ -15,7 +15,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import is_curve
 from hysteresis_bench.diagnosis.search.fallback import predicts_better
-from hysteresis_bench.diagnosis.search.selection import ALIKE, MATTERS, NAMED, Selection
+from hysteresis_bench.diagnosis.search.selection import ALIKE, NAMED, REACHED, Selection
 from hysteresis_bench.diagnosis.search.sets import best_of_all, fits
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
@@ -71,7 +71,7 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
     if offset not in current.names or not selection.adopted(current):
         return current
     (without,) = selection.workers.map([("reduced", current, offset)])
-    if without.rmse <= MATTERS * max(current.rmse, selection.floor):
+    if without.rmse <= REACHED * max(current.rmse, selection.floor):
         return current
     forms = [form for form in selection.forms if form not in current.names and not fitter.stack.effect(form).estimates]
     tried = _in_place(selection, without, forms)
@@ -116,7 +116,7 @@ def _freed(selection: Selection, current: Hypothesis, forms: list[str], beside: 
     """With one free form more, the one that does best; None where the names do as well as all of them.
 
     beside : where there is room for one, or else in the place of names alone"""
-    if current.rmse <= MATTERS * selection.floor:
+    if current.rmse <= REACHED * selection.floor:
         return None
     tried = [*selection.with_each(current, forms if beside else []), *_in_place(selection, current, forms)]
     found = [system for system in tried if _clearly(selection, current, system)]

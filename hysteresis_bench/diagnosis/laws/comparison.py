@@ -25,7 +25,7 @@ from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
 from hysteresis_bench.diagnosis.laws.surroundings import changes, curves
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question, record_faults
-from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
+from hysteresis_bench.diagnosis.search.selection import MISFIT, REACHED
 from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
@@ -135,7 +135,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
     notes = (*_notes(seen, options), *told)
-    ranked = ranking([better.get(law.model, law) for law in laws], MATTERS * floor, out.blocks, like=out.like)
+    ranked = ranking([better.get(law.model, law) for law in laws], REACHED * floor, out.blocks, like=out.like)
     if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
         equal = [law.model for law in moved if law is not first and law.rmse <= TIED * first.rmse]
         words += f" With what may act around it, {first.model} predicts that to {first.rmse:.3g}"
@@ -147,7 +147,7 @@ def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
     """Laws without dynamics of their own, where none comes down to the noise: those with them, or of many parameters,
     may owe their place to an effect that the others lack."""
     still = [law for law in fitted if law.found is not None and is_rate_independent(law.model)]
-    return still if _least(still) > MATTERS * floor else []
+    return still if _least(still) > REACHED * floor else []
 
 
 def _surrounded(workers: Workers[Law], laws: Sequence[Law], known: Sequence[Law], floor: float) -> list[Law]:

@@ -18,7 +18,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.diagnosis.search.selection import LEVEL, MATTERS
+from hysteresis_bench.diagnosis.search.selection import LEVEL, REACHED
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.signals import Record
 
@@ -43,7 +43,7 @@ def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
     def gone(rmse: float, with_beginnings: float) -> bool:
         """Is most of what was more than the noise left out with them?"""
         excess = [x**2 - floor**2 for x in (rmse, with_beginnings)]
-        return with_beginnings > MATTERS * max(rmse, floor) and excess[0] <= LEFT * excess[1]
+        return with_beginnings > REACHED * max(rmse, floor) and excess[0] <= LEFT * excess[1]
 
     left, current, spare = list(found.without), best, list[str]()
     while left:

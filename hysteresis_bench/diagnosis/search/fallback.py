@@ -24,8 +24,8 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 WORSE = 1.06
-"""Times the error without an effect, or the noise, from which it makes a prediction worse: the least gain for which an
-effect joins (`selection.MATTERS`), the other way round."""
+"""Times the error without an effect, or the noise, from which it makes a prediction worse: where a system no longer
+counts as down to the noise (`selection.REACHED`)."""
 
 
 @dataclass(frozen=True)

@@ -82,6 +82,8 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
             best = selection.run(selection.named(best))
         on_step(Step("free forms in the place of names"))
         best = with_free_forms(selection, best)
+        # what an effect led to, the model alone may reach as well
+        base = min(base, selection.known.get(base.names, base), key=lambda one: one.rmse)
         on_step(Step("what the data say of the selection"))
         answers = follows(full, best)
         bare = Found(

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT, MOST, NAMED, Selection
+from hysteresis_bench.diagnosis.search.selection import MISFIT, MOST, NAMED, REACHED, Selection
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 
@@ -27,7 +27,7 @@ def takes_the_place(selection: Selection, one: Hypothesis, current: Hypothesis) 
     """Does a set that claims no more predict samples left out clearly better than the current one? With more parameters
     it must explain more than what then remains over the noise. Near the noise no names are given up for a curve; far
     from it a free form that joins may be following the law's own fault."""
-    if current.rmse <= MATTERS * selection.floor:
+    if current.rmse <= REACHED * selection.floor:
         return False
     if not fits(selection, one) and (one.names - current.names) & {*selection.forms}:
         return False

@@ -84,3 +84,11 @@ def test_the_same_question_is_asked_once():
     del selection.known[frozenset("a")]
     assert selection.without(current, "b").names == {"a"}
     assert len(selection.workers.asked) == 3
+
+
+def test_an_effect_that_only_led_to_a_better_fit_of_the_model_leaves_again():
+    """The model alone had ended elsewhere: fitted again from the system with `a`, it leaves no more than that."""
+    astray, found = fit("", 1.3), fit("", 1.0)
+    selection = selection_of(found, fit("a", 0.999), candidates="a")
+    assert selection.run(astray) is found
+    assert [one.chosen for one in selection.rounds] == ["a", ""]
