@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.carrying import carrying
 from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
-from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws, of_effects
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.families.finding import forms_of
@@ -18,7 +18,7 @@ from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.search import Found, with_fewer, with_more
-from hysteresis_bench.diagnosis.search.selection import MATTERS, MISFIT
+from hysteresis_bench.diagnosis.search.selection import MISFIT, REACHED
 
 SCREENED = 1000
 """Samples to which every law is fitted first. With half and with twice as many the same laws passed on four made cases,
@@ -77,10 +77,10 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     options, stack, asked, floor = question.options, found.thin.stack, question.model, found.selection.floor
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
     alone = carrying(found)
-    if not found.follows or (final.rmse <= MATTERS * floor and not forms_of(final.effects)):
+    if not found.follows or (final.rmse <= REACHED * floor and not forms_of(final.effects)):
         return Doubt(carrying=alone)
     few = thinned(views_of(stack.records), SCREENED)
-    around = OtherLaws(asked, stack, few, _in_question(found), floor, options.seed)
+    around = OtherLaws(asked, stack, few, _in_question(found), floor, options.seed, _values(found))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
         untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
@@ -88,12 +88,12 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
         cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
-        if not wrong or not witnesses or (cause and cause.unseen <= MATTERS * floor):
+        if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):
             return Doubt(cause, untested=untested, carrying=alone)
         (own,) = workers.map([("needy", asked)])
         good = [one.model for one in screened if one.rmse <= own.rmse and is_rate_independent(one.model)]
         needy = workers.map([("needy", name) for name in good])
-        shaped = is_rate_independent(asked) and any(is_shape(name) for name in own.effects)
+        shaped = is_rate_independent(asked) and any(map(is_shape, (*own.effects, *forms_of(final.effects))))
         return Doubt(cause, agreement(own, needy) if needy or shaped else None, untested, alone)
 
 
@@ -126,3 +126,9 @@ def _in_question(found: Found) -> tuple[str, ...]:
     names |= {one.chosen for one in found.selection.rounds if one.chosen}
     names |= {rival for rivals in found.rivals.values() for rival in rivals}
     return tuple(sorted(names - {*forms_of(tuple(names))}))
+
+
+def _values(found: Found) -> dict[str, float]:
+    """Of the parameters of all effects that were tried, each in the best system with it, the final one before all."""
+    known = sorted(found.selection.known.values(), key=lambda one: one.rmse, reverse=True)
+    return {name: value for one in (*known, found.final) for name, value in of_effects(one.values).items()}

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,6 +44,7 @@ class OtherLaws:
 
     asked : the law that was asked about, as `stack` has it;  few : the records of `stack` with fewer samples
     effects : in question;  floor : RMS of the noise
+    values : of the effects' parameters, as they were found around the asked law
     """
 
     asked: str
@@ -52,6 +53,7 @@ class OtherLaws:
     effects: tuple[str, ...]
     floor: float
     seed: int
+    values: Mapping[str, float]
 
     def screened(self, law: str) -> Contender:
         """With all effects in question, and what it leaves of the few samples that it was fitted to."""
@@ -61,7 +63,7 @@ class OtherLaws:
         if not enough or broken_promises(system, self.few):
             return Contender(law, (), np.empty(0))
         names = self._possible(fitter)
-        return Contender(law, tuple(names), fitter.bare(OFFSET | {*names}).residuals)
+        return Contender(law, tuple(names), self._fitted(fitter, names).residuals)
 
     def needy(self, law: str) -> Contender:
         """With those of them that it needs around the few samples, and what it then leaves of them."""
@@ -76,7 +78,7 @@ class OtherLaws:
     def _thinned(self, fitter: Fitter, effects: Sequence[str]) -> tuple[Hypothesis, tuple[str, ...]]:
         names = list(effects)
         needs = Selection(fitter, Workers(fitter, 1), self.floor, tuple(names))
-        current = fitter.bare(OFFSET | {*names})
+        current = self._fitted(fitter, names)
         while names:
             smaller = {name: fitter.reduced(current, name) for name in names}
             spare = [name for name in names if not needs.needed(smaller[name], current)]
@@ -87,8 +89,16 @@ class OtherLaws:
             current = smaller[least]
         # with more effects than are needed a search may have ended elsewhere
         if len(names) < len(effects):
-            current = min(current, fitter.bare(OFFSET | {*names}), key=lambda one: one.rmse)
+            current = min(current, self._fitted(fitter, names), key=lambda one: one.rmse)
         return current, tuple(names)
+
+    def _fitted(self, fitter: Fitter, effects: Sequence[str]) -> Hypothesis:
+        """From anywhere, and from there with the effects as they were around the asked law: no search from anywhere
+        meets a narrow line of the spectrum."""
+        found = fitter.bare(OFFSET | {*effects})
+        known = {name: value for name, value in self.values.items() if name in found.values}
+        again = fitter.followed(replace(found, values={**found.values, **known}))
+        return min(found, again, key=lambda one: one.rmse)
 
     def _possible(self, fitter: Fitter) -> list[str]:
         known = {*fitter.stack.candidates()[0], *fitter.stack.free_forms()}
@@ -100,3 +110,8 @@ class OtherLaws:
         else:
             stack = Stack(registry.build("models", law, {}), records, self.stack.own)
         return Fitter(stack, self.seed)
+
+
+def of_effects(values: Mapping[str, float]) -> dict[str, float]:
+    """Without those of the law, whose names have no dot."""
+    return {name: value for name, value in values.items() if "." in name}
