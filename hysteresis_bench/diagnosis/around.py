@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.ceiling.ceiling import ceiling
 from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.conclude import conclude
-from hysteresis_bench.diagnosis.findings.remainder import remainder
+from hysteresis_bench.diagnosis.findings.remainder import Remainder, remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
-from hysteresis_bench.diagnosis.findings.stages import settle_offset
+from hysteresis_bench.diagnosis.findings.stages import Stages, settle_offset
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared, prepare
 from hysteresis_bench.diagnosis.question import Question
@@ -26,7 +27,7 @@ from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.reading.past import begun, pasts, with_pasts
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, search
-from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MATTERS, MISFIT
+from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, REACHED
 from hysteresis_bench.diagnosis.search.sets import claims
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.smooth.smoothing import Rough
@@ -78,7 +79,7 @@ class Standing:
     @property
     def reached(self) -> bool:
         """Does it predict to the noise?"""
-        return self.unseen <= MATTERS * self.floor
+        return self.unseen <= REACHED * self.floor
 
     @property
     def shaped(self) -> bool:
@@ -141,7 +142,7 @@ def searched(dataset: Dataset, question: Question) -> Around:
 def explains_more(smooth: Hypothesis, found: Hypothesis) -> bool:
     """Does a smoother input leave less? Instead of effects it may leave a little more: one that takes the input's noise
     off as well also takes off what a spline leaves of it, or takes for noise."""
-    return smooth.rmse < (MATTERS if claims(smooth) < claims(found) else 1.0) * found.rmse
+    return smooth.rmse < (REACHED if claims(smooth) < claims(found) else 1.0) * found.rmse
 
 
 def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
@@ -151,7 +152,7 @@ def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
     question, prepared, found = around.question, around.prepared, around.found
     question.options.on_step(Step(f"{question.model}: before and after"))
     stages = settle_offset(prepared, found, question)
-    left = remainder(stages.after, found.evidence)
+    left = _left(stages, found)
     # noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
     # clearly better shows that it is none, and what one excitation leaves may as well be the law's
     blameless = left.noise and not forms_of(stages.adopted) and found.thin.excitations.varied
@@ -159,10 +160,22 @@ def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
     doubted = doubt(found, question, laws, witnesses)
     if doubted != Doubt():
         known, found = found, answered(found, doubted, question.options)
+        if found.best.names > known.best.names:
+            # with more around it the law may do as well as another one did: that is asked again
+            return concluded(replace(around, found=found), laws)
         if found.best is not known.best:
             stages = settle_offset(prepared, found, question)
-            left = remainder(stages.after, found.evidence)
+            left = _left(stages, found)
     return conclude(around.dataset, question, prepared, found, stages, left, doubted)
+
+
+def _left(stages: Stages, found: Found) -> Remainder:
+    """In the residual of the last stage; what a black box predicts of records left out is no noise."""
+    left, evidence = remainder(stages.after, found.evidence), found.evidence
+    several = len(found.thin.stack.records) > 1
+    if several and left.noise and ceiling(found.thin, found.final, evidence.floor, evidence.noise).better:
+        return left.of_a_cause()
+    return left
 
 
 def _anew(ready: Prepared, question: Question) -> tuple[Prepared, Found]:

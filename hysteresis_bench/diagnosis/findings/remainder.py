@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -59,6 +59,10 @@ class Remainder:
     def noise(self) -> bool:
         """Is nothing left but noise, though louder than most samples are from one to the next?"""
         return self.slow or self.heavy
+
+    def of_a_cause(self) -> Remainder:
+        """After something predicted it where it was not fitted, which nothing can of noise."""
+        return replace(self, matters=self.matters or self.noise, slow=False, heavy=False)
 
 
 def remainder(stage: Stage, evidence: Evidence) -> Remainder:

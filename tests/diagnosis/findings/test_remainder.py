@@ -5,7 +5,7 @@ from types import SimpleNamespace as Of
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.findings.remainder import _hidden, _louder, other_zero
+from hysteresis_bench.diagnosis.findings.remainder import Remainder, _hidden, _louder, other_zero
 
 RECORDS, SAMPLES = 4, 800
 
@@ -80,3 +80,11 @@ def test_a_zero_that_lies_elsewhere_is_told(rmse, constant, told):
 
 def test_without_held_out_records_no_zero_is_missed():
     assert other_zero(Of(held_out=None, constant=0.0), 0.1, "") == ""
+
+
+@pytest.mark.parametrize(
+    ("slow", "heavy", "matters"), [(True, False, True), (False, True, True), (False, False, False)]
+)
+def test_what_was_predicted_is_no_noise(slow, heavy, matters):
+    left = Remainder(None, matters=False, slow=slow, heavy=heavy, louder=False).of_a_cause()
+    assert (left.matters, left.noise) == (matters, False)

@@ -1,0 +1,25 @@
+"""What is told of a law after others were asked."""
+
+from types import SimpleNamespace as Of
+
+import pytest
+
+from hysteresis_bench.diagnosis import around
+from hysteresis_bench.diagnosis.findings.remainder import Remainder
+
+SLOW = Remainder(None, matters=False, slow=True, heavy=False, louder=False)
+
+
+@pytest.mark.parametrize(
+    ("records", "predicted", "noise"),
+    [
+        (4, True, False),
+        (4, False, True),
+        (1, True, True),  # of a lone record a smooth course of time predicts slow noise between its neighbours
+    ],
+)
+def test_what_a_black_box_predicts_of_other_records_is_no_noise(monkeypatch, records, predicted, noise):
+    monkeypatch.setattr(around, "remainder", lambda stage, evidence: SLOW)
+    monkeypatch.setattr(around, "ceiling", lambda *_: Of(better=predicted))
+    found = Of(thin=Of(stack=Of(records=(None,) * records)), final=None, evidence=Of(floor=1.0, noise=None))
+    assert around._left(Of(after=None), found).noise is noise
