@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.ceiling.ceiling import ceiling
 from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
@@ -171,11 +170,8 @@ def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
 
 def _left(stages: Stages, found: Found) -> Remainder:
     """In the residual of the last stage; what a black box predicts of records left out is no noise."""
-    left, evidence = remainder(stages.after, found.evidence), found.evidence
-    several = len(found.thin.stack.records) > 1
-    if several and left.noise and ceiling(found.thin, found.final, evidence.floor, evidence.noise).better:
-        return left.of_a_cause()
-    return left
+    left, several = remainder(stages.after, found.evidence), len(found.thin.stack.records) > 1
+    return left.of_a_cause() if several and left.noise and found.ceiling.better else left
 
 
 def _anew(ready: Prepared, question: Question) -> tuple[Prepared, Found]:

@@ -20,6 +20,5 @@ SLOW = Remainder(None, matters=False, slow=True, heavy=False, louder=False)
 )
 def test_what_a_black_box_predicts_of_other_records_is_no_noise(monkeypatch, records, predicted, noise):
     monkeypatch.setattr(around, "remainder", lambda stage, evidence: SLOW)
-    monkeypatch.setattr(around, "ceiling", lambda *_: Of(better=predicted))
-    found = Of(thin=Of(stack=Of(records=(None,) * records)), final=None, evidence=Of(floor=1.0, noise=None))
+    found = Of(thin=Of(stack=Of(records=(None,) * records)), evidence=None, ceiling=Of(better=predicted))
     assert around._left(Of(after=None), found).noise is noise

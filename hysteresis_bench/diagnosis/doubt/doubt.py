@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.carrying import carrying
 from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
-from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws, of_effects
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.families.finding import forms_of
@@ -129,6 +129,6 @@ def _in_question(found: Found) -> tuple[str, ...]:
 
 
 def _values(found: Found) -> dict[str, float]:
-    """Of the parameters of all effects that were tried, each in the best system with it, the final one before all."""
+    """Of all parameters that were tried, each in the best system with it, the final one before all."""
     known = sorted(found.selection.known.values(), key=lambda one: one.rmse, reverse=True)
-    return {name: value for one in (*known, found.final) for name, value in of_effects(one.values).items()}
+    return {name: value for one in (*known, found.final) for name, value in one.values.items()}

@@ -44,7 +44,7 @@ class OtherLaws:
 
     asked : the law that was asked about, as `stack` has it;  few : the records of `stack` with fewer samples
     effects : in question;  floor : RMS of the noise
-    values : of the effects' parameters, as they were found around the asked law
+    values : of parameters around the asked law; those of its effects are begun with
     """
 
     asked: str
@@ -96,7 +96,10 @@ class OtherLaws:
         """From anywhere, and from there with the effects as they were around the asked law: no search from anywhere
         meets a narrow line of the spectrum."""
         found = fitter.bare(OFFSET | {*effects})
-        known = {name: value for name, value in self.values.items() if name in found.values}
+        # a law's own have no dot, and mean something else in another law
+        known = {name: value for name, value in self.values.items() if "." in name and name in found.values}
+        if not known:
+            return found
         again = fitter.followed(replace(found, values={**found.values, **known}))
         return min(found, again, key=lambda one: one.rmse)
 
@@ -110,8 +113,3 @@ class OtherLaws:
         else:
             stack = Stack(registry.build("models", law, {}), records, self.stack.own)
         return Fitter(stack, self.seed)
-
-
-def of_effects(values: Mapping[str, float]) -> dict[str, float]:
-    """Without those of the law, whose names have no dot."""
-    return {name: value for name, value in values.items() if "." in name}

@@ -11,7 +11,7 @@ import os
 from collections.abc import Mapping, Sequence
 
 from hysteresis_bench.diagnosis.doubt.doubt import SCREENED
-from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws, of_effects
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.choice import TIED
@@ -49,5 +49,4 @@ def better_law(asked: str, found: Found, parameters: Mapping[str, int], options:
 def _around(asked: str, found: Found, seed: int) -> OtherLaws:
     stack, selection = found.thin.stack, found.selection
     few = thinned(views_of(stack.records), SCREENED)
-    values = of_effects(found.final.values)
-    return OtherLaws(asked, stack, few, selection.adopted(found.best), selection.floor, seed, values)
+    return OtherLaws(asked, stack, few, selection.adopted(found.best), selection.floor, seed, found.final.values)

@@ -10,7 +10,6 @@ import pandas as pd
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.ceiling.ceiling import ceiling
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples
 from hysteresis_bench.diagnosis.experiments.power import Fitted, Left
@@ -110,7 +109,7 @@ def conclude(
         units=dataset.units,
         given_up=found.given_up,
         unseen=unseen_rmse(found.thin, found.final),
-        ceiling=ceiling(found.thin, found.final, evidence.floor, evidence.noise),
+        ceiling=found.ceiling,
     )
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import reduce
+from functools import cached_property, reduce
 
 from hysteresis_bench import registry
+from hysteresis_bench.diagnosis.ceiling.ceiling import Ceiling, ceiling
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
@@ -55,6 +56,11 @@ class Found:
     rivals: Mapping[str, Mapping[str, Hypothesis]]
     without: Mapping[str, Hypothesis]
     impossible: Mapping[str, str]
+
+    @cached_property
+    def ceiling(self) -> Ceiling:
+        """What the best black box reaches on excitations left out, beside the final system."""
+        return ceiling(self.thin, self.final, self.evidence.floor, self.evidence.noise)
 
 
 def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
