@@ -10,7 +10,6 @@ real_measurements.py puts on its page. Devices that are there already are kept; 
 from __future__ import annotations
 
 import argparse
-import signal
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -18,6 +17,7 @@ from pathlib import Path
 
 import pandas as pd
 from devices import DEVICES, Device, records_of
+from limited import limited
 from real_measurements import DATA, FOUND, ROOT
 
 from hysteresis_bench import diagnose
@@ -50,10 +50,6 @@ def diagnosed(device: Device) -> dict[str, object]:
     }
 
 
-def _late(*_: object) -> None:
-    raise TimeoutError
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("names", nargs="*")
@@ -62,21 +58,18 @@ def main(arguments: Sequence[str] | None = None) -> None:
     given = parser.parse_args(arguments)
     path = given.out / FOUND
     rows = pd.read_csv(path, keep_default_na=False) if path.is_file() else pd.DataFrame(columns=["device"])
-    signal.signal(signal.SIGALRM, _late)
     for device in DEVICES:
         asked = (
             any(name in device.name for name in given.names) if given.names else device.name not in {*rows["device"]}
         )
         if not asked or not all((DATA / file).is_file() for file in device.files):
             continue
-        signal.alarm(given.timeout)
         try:
-            new = diagnosed(device)
+            with limited(given.timeout):
+                new = diagnosed(device)
         except (UserError, TimeoutError) as error:
             print(f"{device.name}: {str(error) or f'not ended after {given.timeout} s'}", flush=True)
             continue
-        finally:
-            signal.alarm(0)
         print(f"{device.name}: {new['law']}. {new['headline']} ({new['seconds']} s)", flush=True)
         rows = pd.concat([rows[rows["device"] != device.name], pd.DataFrame([new])], ignore_index=True)
         rows.to_csv(path, index=False, float_format="%.5g", lineterminator="\n")

@@ -11,10 +11,10 @@ what is left of the records that were not fitted, over the noise.
 from __future__ import annotations
 
 import argparse
-import signal
 from collections.abc import Sequence
 
 import pandas as pd
+from limited import limited
 
 from hysteresis_bench.diagnosis_study.case import Case, CaseTicket, run_case
 from hysteresis_bench.diagnosis_study.study_file import BenchSpec, DiagnosisStudy
@@ -54,10 +54,6 @@ def row(law: str, case: Case) -> dict[str, object]:
     }
 
 
-def _late(*_: object) -> None:
-    raise TimeoutError
-
-
 def main(arguments: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("laws", nargs="*")
@@ -66,16 +62,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--hide", type=int, default=1)
     parser.add_argument("--timeout", type=int, default=600)
     given = parser.parse_args(arguments)
-    signal.signal(signal.SIGALRM, _late)
     rows = []
     for number in range(given.first, given.first + given.count):
         for law in given.laws or LAWS:
-            signal.alarm(given.timeout)
             try:
-                rows.append(row(law, run_case(ticket(law, given.hide, number))))
+                with limited(given.timeout):
+                    rows.append(row(law, run_case(ticket(law, given.hide, number))))
             except TimeoutError:
                 rows.append({"made by": law, "draw": number, "law": False, "effect": False, "verdict": "too late"})
-            signal.alarm(0)
             print(", ".join(f"{key}: {value}" for key, value in rows[-1].items()), flush=True)
     table = pd.DataFrame(rows)
     print(
