@@ -23,7 +23,7 @@ from hysteresis_bench.diagnosis.reading.beginnings import only_in_beginnings, wi
 from hysteresis_bench.diagnosis.reading.between_samples import few_samples
 from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
-from hysteresis_bench.diagnosis.reading.past import begun, pasts, with_pasts
+from hysteresis_bench.diagnosis.reading.past import Past, begun, pasts, settled, with_pasts
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, REACHED
@@ -181,24 +181,25 @@ def _anew(ready: Prepared, question: Question) -> tuple[Prepared, Found]:
 def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], question: Question) -> tuple[Prepared, Found]:
     """Without the records' beginnings, or with what came before them where that leaves as little of all samples.
 
-    What came before is estimated by what was found without the beginnings, and again by what is found then."""
+    What came before is estimated by what was found without the beginnings, and again where something else is found
+    then."""
     needed = f"{listed(spare)} had been selected and is needed there only, to make up for that" if spare else ""
     told = MID_LOOP.format(f"; {needed}" if needed else "")
     measured = prepared.dataset
-    cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
-    if cut[1].best.rmse > WRONG * cut[1].selection.floor:
-        return prepared, found  # the law is wrong, whatever came before
-    best, known = cut, {}
+    best = cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
+    known = dict[str, Past]()
     for _ in range(ESTIMATED):
-        estimated = pasts(*best[1].thin.fitted(best[1].best), measured.fitted)
+        system, estimated = settled(best[1], measured)
+        if best is cut and min(system.rmse, cut[1].best.rmse) > WRONG * cut[1].selection.floor:
+            return prepared, found  # the law is wrong, whatever came before
         again = _anew(prepared.read_as(with_pasts(measured, estimated), f"{told} {PAST}"), question)
-        if best is not cut and again[1].best.rmse >= BETTER * best[1].best.rmse:
+        limit = WRONG * again[1].selection.floor if best is cut else BETTER * best[1].best.rmse
+        if again[1].best.rmse >= limit:
             break
-        same = again[1].best.names == best[1].best.names
         best, known = again, estimated
-        if same:
+        if again[1].best.names == system.names:
             break
-    if best[1].best.rmse > ALIKE * cut[1].best.rmse:
+    if not known or best[1].best.rmse > ALIKE * cut[1].best.rmse:
         best = cut
     else:  # where a held-out record stands tells its past as well
         everywhere = known | pasts(*best[1].thin.fitted(best[1].final), begun(measured.held_out))

@@ -82,6 +82,16 @@ def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(law
     assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
 
 
+def test_what_still_settles_from_before_the_records_is_no_leakage(names_only):
+    """Without the beginnings alone a creep had a leakage beside it, that its state at the first sample asked for."""
+    settings = {"model": "bouc-wen", "imperfect": "in-mid-loop", "effects": ("creep",), "draw": 25903}
+    data = measure("hidden-effects", *RECORDS, settings=settings, seed=61920417).split(RECORDS[-1:])
+    with names_only():
+        found = diagnose(data, Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
+    assert found.effects == ("creep",)
+    assert found.after.held_out.rmse < 1.15 * data.hidden["noise"]
+
+
 def test_an_effect_that_acts_all_along_is_not_laid_on_the_beginnings():
     found, _ = found_in("", ("creep",))
     assert found.effects == ("creep",)

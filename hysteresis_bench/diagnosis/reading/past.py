@@ -4,7 +4,9 @@ A model begins every record at rest. A device on a bench seldom does, and what i
 record whose input never passes the earlier extremes again: then no beginning that is left out helps. A law with memory
 of its extremes [1] remembers of its past the turning points that no later swing has passed, the largest first. The last
 two of them stand for all: the input went from rest to one, on to the other, and from there to where the record begins.
-They are estimated for every record, by a system that was fitted, and its past is simulated as history.
+They are estimated for every record, by a system that was fitted, and its past is simulated as history. A slow effect,
+such as creep, remembers besides how it was reached: what it still settles to passes for another effect, such as
+leakage, until the pasts and the values of the system are estimated together.
 
 [1] M. A. Krasnosel'skii, A. V. Pokrovskii, Systems with Hysteresis, Springer (1989): return-point memory.
 """
@@ -21,8 +23,12 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.reading.beginnings import without_beginnings
+from hysteresis_bench.diagnosis.search.search import Found
+from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER
 from hysteresis_bench.signals import Dataset, Record
 
 Past: TypeAlias = tuple[float, float]
@@ -33,6 +39,9 @@ BEYOND = 0.3
 
 POINTS, CLOSER = 33, (9, 9)
 """Turning points tried on either axis, and around the best pair between its neighbours, and once more."""
+
+MOST = 30
+"""Times that pasts and values are estimated in turn at most. In made cases some ten were needed."""
 
 LONGEST = 200
 """Samples of the way from one turning point to the next; fewer where the record's typical step is longer."""
@@ -49,6 +58,34 @@ def pasts(system: System, values: Array, records: Sequence[Record]) -> dict[str,
     more = BEYOND * float(np.ptp(inputs))
     axis = np.linspace(inputs.min() - more, inputs.max() + more, POINTS)
     return {record.name: _past(system, values, record, axis) for record in thinned(views_of(records))}
+
+
+def settled(found: Found, measured: Dataset) -> tuple[Hypothesis, dict[str, Past]]:
+    """Pasts of the fitted records, with the system that they are of: what was found, without the effects beside which
+    the pasts leave as little.
+
+    Both are estimated anew in turn until neither leaves less, of every system by itself: the pasts of too large a
+    system agree with its values and ask for every effect in it."""
+    best = _together(found, found.best, measured)
+    while names := found.selection.adopted(best[0]):
+        fewer = [_together(found, found.selection.without(best[0], name), measured) for name in names]
+        least = min(fewer, key=lambda one: one[0].rmse)
+        if least[0].rmse > ALIKE * best[0].rmse:
+            break
+        best = least
+    return best
+
+
+def _together(found: Found, start: Hypothesis, measured: Dataset) -> tuple[Hypothesis, dict[str, Past]]:
+    best, known = start, dict[str, Past]()
+    for _ in range(MOST):
+        estimated = pasts(*found.thin.fitted(best), measured.fitted)
+        records = thinned(views_of(with_pasts(Dataset(measured.fitted), estimated)))
+        now = Fitter(replace(found.thin.stack, records=records), found.thin.seed).followed(best)
+        if known and now.rmse > BETTER * best.rmse:
+            break
+        best, known = now, estimated
+    return best, known
 
 
 def begun(records: Sequence[Record]) -> list[Record]:

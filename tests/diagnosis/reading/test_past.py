@@ -91,7 +91,7 @@ def test_the_past_of_a_record_is_as_fast_as_the_record_and_not_scored():
 
 def test_the_pasts_that_are_kept_are_those_the_system_was_found_with(monkeypatch):
     """The second estimate leaves no less: what is told has to be of the first."""
-    left, estimates = iter([1.1, 1.0, 1.0]), iter([{"a": 1.0}, {"a": 2.0}, {"h": 9.0}])
+    left, estimates = iter([1.1, 1.0, 1.0]), iter([{"a": 1.0}, {"a": 2.0}])
 
     def anew(ready, question):
         rmse, names = next(left), {object()}  # never the same names: it is not settled by them
@@ -99,7 +99,8 @@ def test_the_pasts_that_are_kept_are_those_the_system_was_found_with(monkeypatch
         return ready, Of(best=best, final=best, selection=Of(floor=1.0), thin=Of(fitted=lambda _: ((), ())))
 
     monkeypatch.setattr(diagnosing, "_anew", anew)
-    monkeypatch.setattr(diagnosing, "pasts", lambda *_: next(estimates))
+    monkeypatch.setattr(diagnosing, "settled", lambda *_: (Of(rmse=1.0, names=set()), next(estimates)))
+    monkeypatch.setattr(diagnosing, "pasts", lambda *_: {"h": 9.0})
     monkeypatch.setattr(diagnosing, "with_pasts", lambda _, known: known)
     monkeypatch.setattr(diagnosing, "without_beginnings", lambda _: "cut")
     monkeypatch.setattr(diagnosing, "begun", lambda _: [])
@@ -109,11 +110,12 @@ def test_the_pasts_that_are_kept_are_those_the_system_was_found_with(monkeypatch
     assert found.best.rmse == 1.0
 
 
-def test_no_past_is_estimated_where_the_law_is_wrong_without_the_beginnings_too(monkeypatch):
+def test_the_records_stay_whole_where_the_law_is_wrong_with_any_past(monkeypatch):
     def anew(ready, question):
         return ready, Of(best=Of(rmse=2.1), selection=Of(floor=1.0))
 
     monkeypatch.setattr(diagnosing, "_anew", anew)
+    monkeypatch.setattr(diagnosing, "settled", lambda *_: (Of(rmse=2.1), {}))
     monkeypatch.setattr(diagnosing, "without_beginnings", lambda _: "cut")
     prepared = Of(dataset=Dataset((measured("a", (1.0,), (0.5, -0.5, 1.0)),), ()), read_as=lambda records, _: records)
     assert diagnosing._in_mid_loop(prepared, None, (), None) == (prepared, None)
