@@ -186,24 +186,25 @@ def _in_mid_loop(prepared: Prepared, found: Found, spare: Sequence[str], questio
     needed = f"{listed(spare)} had been selected and is needed there only, to make up for that" if spare else ""
     told = MID_LOOP.format(f"; {needed}" if needed else "")
     measured = prepared.dataset
-    best = cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
-    known = dict[str, Past]()
+    cut = _anew(prepared.read_as(without_beginnings(measured.records), f"{told} {CUT}"), question)
+    system, estimated = settled(cut[1], measured)
+    limit = WRONG * cut[1].selection.floor
+    if min(system.rmse, cut[1].best.rmse) > limit:
+        return prepared, found  # the law is wrong, whatever came before
+    best, known = cut, dict[str, Past]()
     for _ in range(ESTIMATED):
-        system, estimated = settled(best[1], measured)
-        if best is cut and min(system.rmse, cut[1].best.rmse) > WRONG * cut[1].selection.floor:
-            return prepared, found  # the law is wrong, whatever came before
         again = _anew(prepared.read_as(with_pasts(measured, estimated), f"{told} {PAST}"), question)
-        limit = WRONG * again[1].selection.floor if best is cut else BETTER * best[1].best.rmse
         if again[1].best.rmse >= limit:
             break
-        best, known = again, estimated
+        best, known, limit = again, estimated, BETTER * again[1].best.rmse
         if again[1].best.names == system.names:
             break
-    if not known or best[1].best.rmse > ALIKE * cut[1].best.rmse:
-        best = cut
-    else:  # where a held-out record stands tells its past as well
+        system, estimated = settled(again[1], measured)
+    if known and best[1].best.rmse <= ALIKE * cut[1].best.rmse:  # where a held-out record stands tells its past as well
         everywhere = known | pasts(*best[1].thin.fitted(best[1].final), begun(measured.held_out))
         best = (prepared.read_as(with_pasts(measured, everywhere), f"{told} {PAST}"), best[1])
+    else:
+        best = cut
     return best if best[1].best.rmse <= MISFIT * best[1].selection.floor else (prepared, found)
 
 

@@ -77,6 +77,7 @@ def settled(found: Found, measured: Dataset) -> tuple[Hypothesis, dict[str, Past
 
 
 def _together(found: Found, start: Hypothesis, measured: Dataset) -> tuple[Hypothesis, dict[str, Past]]:
+    """A system as it is fitted with its own pasts."""
     best, known = start, dict[str, Past]()
     for _ in range(MOST):
         estimated = pasts(*found.thin.fitted(best), measured.fitted)
