@@ -23,7 +23,7 @@ from hysteresis_bench.diagnosis.reading.beginnings import only_in_beginnings, wi
 from hysteresis_bench.diagnosis.reading.between_samples import few_samples
 from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
-from hysteresis_bench.diagnosis.reading.past import Past, begun, pasts, settled, with_pasts
+from hysteresis_bench.diagnosis.reading.past import Past, begun, explain, pasts, settled, with_pasts
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, REACHED
@@ -133,8 +133,10 @@ def searched(dataset: Dataset, question: Question) -> Around:
             prepared, found = finer, again
     on_step(Step(f"{law}: the records' beginnings"))
     # what needs no hysteresis remembers nothing of what came before
-    if evidence.memory.needed and (spare := only_in_beginnings(found)) is not None:
-        prepared, found = _in_mid_loop(prepared, found, spare, question)
+    if evidence.memory.needed:
+        spare = only_in_beginnings(found)
+        if spare is not None or explain(found, prepared.dataset):
+            prepared, found = _in_mid_loop(prepared, found, spare or (), question)
     return Around(dataset, question, prepared, found)
 
 

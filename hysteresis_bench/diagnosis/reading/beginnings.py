@@ -3,9 +3,8 @@
 What it remembers from before a record is in its output until the input has passed the extremes that came before. An
 effect that makes up for that, such as a dead band, is needed there and nowhere else: once the beginnings no longer
 count, the system without it leaves little more than the noise, and the nested-model test does not ask for it. Where
-nothing makes up for it, a fit to the rest alone leaves less, near the noise by an F test. Then the beginnings become
-history, simulated and not scored, and the search begins anew; where it comes down to about the noise, that is what is
-told.
+nothing makes up for it, a fit to the rest alone leaves less by an F test. Then the beginnings become history, simulated
+and not scored, and the search begins anew; where it comes down to about the noise, that is what is told.
 """
 
 from __future__ import annotations
@@ -19,7 +18,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.diagnosis.search.selection import LEVEL, MISFIT, REACHED
+from hysteresis_bench.diagnosis.search.selection import LEVEL, REACHED
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.signals import Record
 
@@ -28,9 +27,8 @@ NEAR = 0.05
 same answer."""
 
 
-LEFT, MISSED = 0.2, 0.8
-"""Of the excess over the noise, what may be left without the beginnings: an effect that they hide may be in it. More
-where the search ended far from the noise, as what they hide was not found."""
+LEFT = 0.2
+"""Of the excess over the noise, what may be left without the beginnings: an effect that they hide may be in it."""
 
 
 def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
@@ -42,10 +40,10 @@ def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
         return None
     later = Fitter(replace(thin.stack, records=records), thin.seed)
 
-    def gone(rmse: float, with_beginnings: float, left: float = LEFT) -> bool:
-        """Is all but a share of what was more than the noise left out with them?"""
+    def gone(rmse: float, with_beginnings: float) -> bool:
+        """Is most of what was more than the noise left out with them?"""
         excess = [x**2 - floor**2 for x in (rmse, with_beginnings)]
-        return with_beginnings > REACHED * max(rmse, floor) and excess[0] <= left * excess[1]
+        return with_beginnings > REACHED * max(rmse, floor) and excess[0] <= LEFT * excess[1]
 
     left, current, spare = list(found.without), best, list[str]()
     while left:
@@ -63,10 +61,7 @@ def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
         return tuple(spare)
     values = later.polished(best)
     rest = split(later.errors(best.names, values), records)
-    after = float(np.sqrt(np.mean(np.concatenate(rest) ** 2)))
-    if best.rmse > MISFIT * floor:  # where what is left is smooth, no F test on its white part tells
-        return () if gone(after, best.rmse, MISSED) else None
-    off = gone(after, best.rmse)
+    off = gone(float(np.sqrt(np.mean(np.concatenate(rest) ** 2))), best.rmse)
     return () if off and _larger(split(best.residuals, thin.stack.records), rest, values.size) < LEVEL else None
 
 

@@ -119,3 +119,12 @@ def test_the_records_stay_whole_where_the_law_is_wrong_with_any_past(monkeypatch
     monkeypatch.setattr(diagnosing, "without_beginnings", lambda _: "cut")
     prepared = Of(dataset=Dataset((measured("a", (1.0,), (0.5, -0.5, 1.0)),), ()), read_as=lambda records, _: records)
     assert diagnosing._in_mid_loop(prepared, None, (), None) == (prepared, None)
+
+
+@pytest.mark.parametrize(("left", "told"), [(2.0, True), (2.9, False)])
+def test_pasts_explain_what_is_left_where_they_leave_clearly_less(monkeypatch, left, told):
+    pasts = importlib.import_module("hysteresis_bench.diagnosis.reading.past")
+    monkeypatch.setattr(pasts, "_together", lambda *_: (Of(rmse=left), {}))
+    found = Of(follows=True, best=Of(rmse=3.0), selection=Of(floor=1.0))
+    assert pasts.explain(found, None) is told
+    assert not pasts.explain(Of(follows=True, best=Of(rmse=1.1), selection=Of(floor=1.0)), None)
