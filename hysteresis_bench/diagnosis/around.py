@@ -8,6 +8,7 @@ from functools import cached_property
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import is_shape
+from hysteresis_bench.diagnosis.doubt.density import in_its_place
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
@@ -146,10 +147,11 @@ def explains_more(smooth: Hypothesis, found: Hypothesis) -> bool:
     return smooth.rmse < (REACHED if claims(smooth) < claims(found) else 1.0) * found.rmse
 
 
-def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
+def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()) -> Diagnosis:
     """The diagnosis, after other laws were asked whether the records are theirs, and what they need.
 
-    laws : which may be the right one, the question's own among them or not"""
+    laws : which may be the right one, the question's own among them or not
+    densities : laws of many parameters, one of which may take this one's place"""
     question, prepared, found = around.question, around.prepared, around.found
     question.options.on_step(Step(f"{question.model}: before and after"))
     stages = settle_offset(prepared, found, question)
@@ -157,16 +159,21 @@ def concluded(around: Around, laws: Sequence[str]) -> Diagnosis:
     # noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
     # clearly better shows that it is none, and what one excitation leaves may as well be the law's
     blameless = left.noise and not forms_of(stages.adopted) and found.thin.excitations.varied
+    blameless = blameless or not laws
     witnesses = [] if blameless else of_few_parameters(registry.names("models"))
     doubted = doubt(found, question, laws, witnesses)
     if doubted != Doubt():
         known, found = found, answered(found, doubted, question.options)
         if found.best.names > known.best.names:
             # with more around it the law may do as well as another one did: that is asked again
-            return concluded(replace(around, found=found), laws)
+            return concluded(replace(around, found=found), laws, densities)
         if found.best is not known.best:
             stages = settle_offset(prepared, found, question)
             left = _left(stages, found)
+    for law in densities:
+        if better := in_its_place(law, prepared, found, question):
+            ready, dense, asked = better
+            return concluded(Around(around.dataset, asked, ready, dense), ())
     return conclude(around.dataset, question, prepared, found, stages, left, doubted)
 
 

@@ -41,7 +41,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     found = list(_pursued(dataset, question, laws))
     if simpler := _simpler(found, laws, question.options.seed):
         found.append(searched(dataset, replace(question, model=simpler)))
-    best = _judged(found)
+    best = _judged(found, [law for law in laws.ranked if law not in of_few_parameters(laws.ranked)])
     return replace(best, laws=laws, warnings=(_told(best, found, laws), *best.warnings))
 
 
@@ -78,13 +78,13 @@ def _plain(laws: Comparison, known: Sequence[str]) -> dict[str, int]:
     return {law: int(count[law]) for law in others}
 
 
-def _judged(found: Sequence[Around]) -> Diagnosis:
+def _judged(found: Sequence[Around], densities: Sequence[str]) -> Diagnosis:
     """The preferred one, as it is after other laws were asked; then another one may be preferred, and is asked too."""
     standings, known = {one.question.model: one.standing for one in found}, dict[str, Diagnosis]()
     laws = tuple(standings)
     while (law := _preferred([*standings.values()]).law) not in known:
         (around,) = (one for one in found if one.question.model == law)
-        known[law] = told = concluded(around, laws)
+        known[law] = told = concluded(around, laws, densities)
         standings[law] = Standing(law, told.effects, len(told.model.parameters), told.unseen, told.floor)
     return known[law]
 
@@ -121,10 +121,15 @@ def _told(best: Diagnosis, found: Sequence[Around], laws: Comparison) -> str:
     others = [one.standing for one in found if one.question.model != best.model_name]
     rest = "".join(f" {one.law} with its effects reaches {one.unseen:.3g}." for one in others)
     unseen, few = laws.table.set_index("law")["unseen"], of_few_parameters(laws.ranked)
-    dense = next((law for law in laws.ranked if law not in few and unseen[law] < best.unseen), "")
-    if dense:
+    dense = [law for law in laws.ranked if law not in few]
+    if best.model_name in dense:
         rest += (
-            f" {dense} alone predicts it to {unseen[dense]:.3g}; among its many parameters effects would be lost, and "
-            f"none is sought around it. Where the prediction counts, not what is missing, take `fit --model {dense}`."
+            " That law has many parameters, among which effects would be lost: those that were found around the other "
+            "were asked for again."
+        )
+    elif better := next((law for law in dense if unseen[law] < best.unseen), ""):
+        rest += (
+            f" {better} alone predicts it to {unseen[better]:.3g}, with more parameters than these records vouch for. "
+            f"Where the prediction counts, not what is missing, take `fit --model {better}`."
         )
     return f"{laws.words} With its effects, {best.model_name} predicts what it did not see to {best.unseen:.3g}.{rest}"

@@ -10,7 +10,7 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.diagnosis.evidence.view import View, views_of
-from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import fitter_of
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods
@@ -70,7 +70,7 @@ def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:
     while True:
         records = tuple(passed(record, passes) for record in dataset.fitted)
         stack = Stack(model, thinned(views_of(records)), tuple(question.effects), question.bounds, question.fixed)
-        fitter = Fitter(stack, question.options.seed)
+        fitter = fitter_of(stack, question.options.seed)
         system, values = fitter.fitted(fitter.bare(frozenset({registry.RECORD_OFFSET})))
         if passes >= MOST_REPEATS or gap_after(system, records, values, repeats=passes) < CLOSED:
             return passes

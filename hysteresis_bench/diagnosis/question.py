@@ -54,6 +54,7 @@ class Question:
     model, settings : a registered model, "" where the law is sought among `options.laws`
     effects : known to act, around the model from the beginning
     bounds : replaces parts of the box that follows from the records;  fixed : parameters that are known
+    among : effects that are in question; None: all
     """
 
     model: str
@@ -62,6 +63,7 @@ class Question:
     bounds: Mapping[str, tuple[float, float]] = field(default_factory=dict)
     fixed: Mapping[str, float] = field(default_factory=dict)
     options: DiagnosisOptions = DiagnosisOptions()
+    among: Sequence[str] | None = None
 
     @property
     def preparation(self) -> Preparation:

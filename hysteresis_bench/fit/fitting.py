@@ -34,6 +34,7 @@ from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops, passed
 from hysteresis_bench.fit.smooth.smoothing import SOLVED, Smoothing, solvable
+from hysteresis_bench.fit.unseen.interval import interval
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.parameters import Parameter, Space
@@ -104,14 +105,16 @@ class Fit:
 @dataclass(frozen=True, eq=False)
 class _Searched:
     """dataset : as the problem sees it;  found : (dimension,) of each search, polished, in units;  losses : of them
-    repeats : passes of every loop before it is scored, 0 where it is not;  gap : between the last two of them"""
+    repeats : passes of every loop before it is scored, 0 where it is not;  gap : between the last two of them
+    left_out : (scored samples,) errors of what a smooth law was solved without; None of one that was searched"""
 
     problem: Problem
     dataset: Dataset
     found: tuple[Array, ...]
     losses: tuple[float, ...]
     repeats: int
-    gap: float
+    gap: float = 0.0
+    left_out: Array | None = None
 
     @property
     def values(self) -> Array:
@@ -155,21 +158,15 @@ def fit_records(
         analysis, errors = analyse_others(problem, values, weights)
     except ValueError as error:
         raise UserError("fit", f"{error}.") from None
-    fitted = fitted_model(
-        problem,
-        values,
-        errors,
-        dataset=best.dataset,
-        model=model,
-        settings=settings,
-        preparation=replace(preparation, settle=best.repeats),
-    )
+    ready, passed_as = best.dataset, replace(preparation, settle=best.repeats)
+    fitted = fitted_model(problem, values, errors, dataset=ready, model=model, settings=settings, preparation=passed_as)
+    fitted = replace(fitted, interval=interval(problem, values, ready.held_out, best.left_out))
     parameters = _parameter_table(problem, fitted)
     agrees, agreement = (True, SOLVED) if weights else agreement_of(problem, best.found, best.losses)
-    responses = simulated(system, best.dataset.records, values)
+    responses = simulated(system, ready.records, values)
     return Fit(
         fitted,
-        error_table(system, values, best.dataset),
+        error_table(system, values, ready),
         response_table(dataset.map(preparation.skipped), {"simulated": responses}),  # the measured input
         parameters,
         analysis,
@@ -205,13 +202,10 @@ def _system(
 
 
 def _check(system: System, dataset: Dataset, settle: bool) -> None:
-    faults = []
-    for name, effect in system.effects:
-        if reason := effect.inapplicable(dataset.fitted):
-            faults.append(f"effect {name}: {reason}")
-    for record in dataset.fitted:
-        if np.ptp(record.measured) == 0:
-            faults.append(f"record {record.name}: the output is constant; there is nothing to identify.")
+    reasons = {name: effect.inapplicable(dataset.fitted) for name, effect in system.effects}
+    faults = [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]
+    constant = [record.name for record in dataset.fitted if np.ptp(record.measured) == 0]
+    faults += [f"record {name}: the output is constant; there is nothing to identify." for name in constant]
     faults += open_loops(dataset.records) if settle else []
     samples = sum(record.measured.size for record in dataset.fitted)
     if samples <= len(system.parameters):
@@ -253,7 +247,8 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
     while True:
         ready = dataset.map(lambda record, n=repeats: passed(record, n)) if options.settle else dataset
         problem = Problem(system, ready.fitted, space, LOSSES["rmse"])
-        found = [Smoothing(problem).searched(judged(problem.records, ready)).values] if smooth else []
+        solved = Smoothing(problem).searched(judged(problem.records, ready)) if smooth else None
+        found = [solved.values] if solved else []
         for run in () if smooth else (0, 1):
             asked = ("search", run, repeats)
             if options.kept is not None and (values := options.kept.get(asked)) is not None:
@@ -268,7 +263,8 @@ def _searched(system: System, space: Space, dataset: Dataset, options: FitOption
         options.on_step(Step("to the nearest optimum"))
         polished = np.column_stack(found) if smooth else polish(problem, np.column_stack(found))
         losses = problem.losses(space.to_unit(polished))
-        searched = _Searched(problem, ready, tuple(polished.T), tuple(losses.tolist()), repeats, 0.0)
+        left_out = solved.left_out if solved else None
+        searched = _Searched(problem, ready, tuple(polished.T), tuple(losses.tolist()), repeats, left_out=left_out)
         if not options.settle:
             return replace(searched, repeats=0)
         gap = gap_after(system, ready.records, searched.values, repeats=repeats)

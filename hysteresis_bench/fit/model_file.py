@@ -24,7 +24,7 @@ from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
 from hysteresis_bench.fit.unseen.between_samples import few_told
 from hysteresis_bench.fit.unseen.excited import excited, ranges
-from hysteresis_bench.fit.unseen.interval import Interval, interval, interval_of
+from hysteresis_bench.fit.unseen.interval import Interval, interval_of
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import UNITLESS, Dataset, Record
 
@@ -126,7 +126,7 @@ def fitted_model(
     settings: Mapping[str, Any],
     preparation: Preparation,
 ) -> FittedModel:
-    """The model of a problem at `values` (dimension,), ready to predict and to be written.
+    """The model of a problem at `values` (dimension,), ready to predict and to be written, without an interval.
 
     errors : (dimension,) standard errors, inf where the data cannot tell
     dataset : as the model sees it, prepared;  model, settings : the model's name and its settings
@@ -161,7 +161,6 @@ def fitted_model(
         },
         error,
         {"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
-        interval=interval(problem, values, dataset.held_out),
     )
 
 

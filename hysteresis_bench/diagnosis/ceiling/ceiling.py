@@ -8,7 +8,7 @@ parameters of named models that inner folds compare does the outer one have a sa
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -22,9 +22,7 @@ from hysteresis_bench.diagnosis.ceiling.nested import Nested
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
-from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
-from hysteresis_bench.fit.unseen.left_out import errors_without
 
 REMAINS = 1.1
 """Times the floor up to which the named model leaves nothing to be found. On 83 made cases, 72 of which lacked a law or
@@ -120,11 +118,10 @@ class Ceiling:
 
 def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ceiling:
     """Of the fitted records.  named : the final system;  floor : RMS below which nothing is judged"""
-    problem = fitter.stack.problem(named.names)
     # neither folds nor sums may depend on the order in which the records came
-    records = tuple(sorted(problem.records, key=lambda record: record.name))
-    problem, folds = replace(problem, records=records), folds_of(records)
-    left = errors_without(problem, point_of(problem, named.values), folds.blocks)
+    records = tuple(sorted(fitter.stack.records, key=lambda record: record.name))
+    folds = folds_of(records)
+    left = fitter.errors_without(named, records, folds.blocks)
     number = np.repeat(np.arange(len(records)), [record.measured.size for record in records])
     centred = registry.RECORD_OFFSET in named.names
     parts = [record.measured - np.mean(record.measured) if centred else record.measured for record in records]

@@ -80,7 +80,7 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     if not found.follows or (final.rmse <= REACHED * floor and not forms_of(final.effects)):
         return Doubt(carrying=alone)
     few = thinned(views_of(stack.records), SCREENED)
-    around = OtherLaws(asked, stack, few, _in_question(found), floor, options.seed, _values(found))
+    around = OtherLaws(asked, stack, few, in_question(found), floor, options.seed, _values(found))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
         untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
@@ -120,7 +120,7 @@ def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
         return replace(found, rivals=rivals)
 
 
-def _in_question(found: Found) -> tuple[str, ...]:
+def in_question(found: Found) -> tuple[str, ...]:
     """The formulas that were adopted, on the way too or to be given up, and what would do as well in their place."""
     names = {*found.selection.adopted(found.best), *(found.given_up.dropped if found.given_up else ())}
     names |= {one.chosen for one in found.selection.rounds if one.chosen}

@@ -11,6 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import fitter_of
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.selection import Selection
@@ -112,4 +113,4 @@ class OtherLaws:
             stack = Stack(self.stack.model, records, self.stack.own, self.stack.bounds, self.stack.fixed)
         else:
             stack = Stack(registry.build("models", law, {}), records, self.stack.own)
-        return Fitter(stack, self.seed)
+        return fitter_of(stack, self.seed)

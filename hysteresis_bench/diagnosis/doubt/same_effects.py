@@ -14,7 +14,7 @@ from hysteresis_bench.diagnosis.doubt.doubt import SCREENED
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
-from hysteresis_bench.diagnosis.laws.choice import TIED
+from hysteresis_bench.diagnosis.laws.choice import TIED, weighed
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.diagnosis.search.search import Found
@@ -42,7 +42,8 @@ def better_law(asked: str, found: Found, parameters: Mapping[str, int], options:
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
         own, *others = workers.map([("screened", law) for law in (asked, *parameters)])
-    expected = {one.model: one.rmse * (1.0 + parameters[one.model] / blocks) for one in others if one.rmse < own.rmse}
+    better = [one for one in others if one.rmse < own.rmse]
+    expected = {one.model: weighed(one.rmse, parameters[one.model], blocks) for one in better}
     return min(expected, key=lambda law: expected[law], default="")
 
 

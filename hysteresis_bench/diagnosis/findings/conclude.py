@@ -29,12 +29,14 @@ from hysteresis_bench.diagnosis.search.certainty import Certainty, certainties
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import response_table, simulated
-from hysteresis_bench.fit.identifiability.analysis import analyse
+from hysteresis_bench.fit.identifiability.analysis import analyse, analyse_others
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import gap_after, not_closed
+from hysteresis_bench.fit.smooth.smoothing import solvable
+from hysteresis_bench.fit.unseen.interval import interval
 from hysteresis_bench.signals import Dataset
 
 
@@ -66,7 +68,10 @@ def conclude(
         adopted = (*adopted, registry.DESCRIPTION)
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
         left = remainder(after, evidence)
-    model = _model(after, prepared, question)
+    model = replace(
+        _model(after, prepared, question),
+        interval=interval(after.problem, after.values, prepared.dataset.held_out, _left_out(found)),
+    )
     alone = len(dataset.records) == 1
     outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, doubt, alone)
     waterfall = tuple((f"{name} (stand-in)" if name in outcome.stand_ins else name, rmse) for name, rmse in waterfall)
@@ -151,6 +156,12 @@ def _open(after: Stage, prepared: Prepared) -> list[str]:
     return not_closed(gap, prepared.passes)
 
 
+def _left_out(found: Found) -> Array | None:
+    """Errors of all samples, each record left out of the fit, where that is solved for; elsewhere they are made for
+    the model that is written."""
+    return found.full.apart(found.final) if solvable(found.full.stack.system(found.final.names)) else None
+
+
 def _model(stage: Stage, prepared: Prepared, question: Question) -> FittedModel:
     return fitted_model(
         stage.problem,
@@ -165,6 +176,8 @@ def _model(stage: Stage, prepared: Prepared, question: Question) -> FittedModel:
 
 def _standard_errors(problem: Problem, values: Array) -> Array:
     try:
+        if solvable(problem.system):
+            return analyse_others(problem, values, problem.system.model.linear)[1]
         return analyse(problem, values).standard_errors
     except (ValueError, np.linalg.LinAlgError):
         return np.full(values.size, np.inf)

@@ -20,6 +20,7 @@ from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy, constant_error
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.smooth.smoothing import Rough
 from hysteresis_bench.fit.unseen.between_samples import between_samples
 
 
@@ -72,8 +73,10 @@ def settle_offset(prepared: Prepared, found: Found, question: Question) -> Stage
     final, order = found.final, found.order
     offset = next((name for name in registry.OFFSETS if name in final.names), "")
     common = registry.COMMON_OFFSET
-    adopted = (*(name for name, _ in order), *([common] if offset == common else []))
-    nuisance = frozenset(registry.OFFSETS if order else [registry.RECORD_OFFSET]) & final.names
+    # the curves of a density begin at 0, wherever the output does
+    own = isinstance(prepared.model, Rough)
+    adopted = (*(name for name, _ in order), *([common] if offset == common and not own else []))
+    nuisance = frozenset(registry.OFFSETS if order or own else [registry.RECORD_OFFSET]) & final.names
     bare = found.thin.bare(nuisance)
     if final.names == nuisance and final.rmse < bare.rmse:
         before = after = stage_of(found.full, final, prepared)

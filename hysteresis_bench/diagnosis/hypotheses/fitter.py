@@ -23,10 +23,11 @@ from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.excitations import Excitations, excitations
-from hysteresis_bench.fit.unseen.left_out import FURTHER, cut, left_out_errors
+from hysteresis_bench.fit.unseen.left_out import cut, errors_without, left_out_errors
 from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record
 
 BUDGET = 1500
 """Evaluations of a global search: for the bare model, and when an effect has joined."""
@@ -168,8 +169,15 @@ class Fitter:
         return self._without(hypothesis, Blocks(number, number, int(number.max()) + 1))
 
     def _without(self, hypothesis: Hypothesis, blocks: Blocks) -> Array:
-        problem = self.stack.problem(hypothesis.names)
-        return left_out_errors(problem, point_of(problem, hypothesis.values), blocks, FURTHER)
+        left = self.errors_without(hypothesis, self.stack.records, blocks)
+        return left[np.arange(blocks.fold.size), blocks.fold]
+
+    def errors_without(self, hypothesis: Hypothesis, records: tuple[Record, ...], blocks: Blocks) -> Array:
+        """Errors (scored samples, folds) of all samples by the fits without each fold.
+
+        records : those of the stack, in the order of the blocks"""
+        problem = replace(self.stack.problem(hypothesis.names), records=records)
+        return errors_without(problem, point_of(problem, hypothesis.values), blocks)
 
     def errors(self, names: Collection[str], values: Array) -> Array:
         """Measured minus simulated (scored samples,); values : (dimension,), in units."""
@@ -180,12 +188,12 @@ class Fitter:
         """Is the larger one better than chance? Not where what it has more is no wider than the input's noise."""
         if any(self.drowned(larger, name) for name in larger.names - smaller.names):
             return NestedTest(0.0, 1.0, 0)
-        known, all_ = (self._fitted_values(hypothesis) for hypothesis in (smaller, larger))
+        known, all_ = (self.fitted_values(hypothesis) for hypothesis in (smaller, larger))
         nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
         less, more = (split(hypothesis.residuals, self.stack.records) for hypothesis in (smaller, larger))
         return nested_test(less, more, max(all_ - known, 1) + (0 if nuisance else SEARCHED), all_)
 
-    def _fitted_values(self, hypothesis: Hypothesis) -> int:
+    def fitted_values(self, hypothesis: Hypothesis) -> int:
         """Parameters, and what effects estimate on every record."""
         own = sum(self.stack.effect(name).estimates for name in hypothesis.names)
         return len(self.stack.problem(hypothesis.names).space.names) + own * len(self.stack.records)
@@ -265,7 +273,7 @@ class Fitter:
             tuple(
                 p.name
                 for p, x in zip(problem.space.parameters, point, strict=True)
-                if _at_bound(replace(p, null=0.0) if p.name in problem.system.model.linear else p, x)
+                if at_bound(replace(p, null=0.0) if p.name in problem.system.model.linear else p, x)
                 and p.name not in self._limits(names)
             ),
         )
@@ -276,7 +284,8 @@ class Fitter:
         return {f"{name}.{parameter}" for name, form in forms.items() for parameter in form.limits}
 
 
-def _at_bound(parameter: Parameter, x: float) -> bool:
+def at_bound(parameter: Parameter, x: float) -> bool:
+    """Does it lie at an edge of its box that does not mean "off"?  x : in the unit interval"""
     if EDGE < x < 1.0 - EDGE:
         return False
     edge = parameter.lower if x <= EDGE else parameter.upper

@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Acts, Effect, Family, Model
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
+from hysteresis_bench.fit.smooth.smoothing import Rough, solvable
 from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
@@ -103,6 +104,8 @@ class Stack:
                 continue
             elif reason := self.effect(name).inapplicable(self.records):
                 impossible[name] = reason
+            elif not self._solvable(name):
+                impossible[name] = "behind it the output is not linear in the law's many weights, which are solved for"
             elif broken := self._broken_promises(name):
                 impossible[name] = f"broken: {broken}"
             else:
@@ -113,7 +116,11 @@ class Stack:
         """Names of the free forms that can be tried."""
         known = [name for name in sorted(registry.names("effects")) if not registry.load("effects", name).fault]
         known = [name for name in known if isinstance(self.effect(name), FreeForm) and name not in self.own]
-        return tuple(name for name in known if not self.effect(name).inapplicable(self.records))
+        return tuple(n for n in known if not self.effect(n).inapplicable(self.records) and self._solvable(n))
+
+    def _solvable(self, name: str) -> bool:
+        """Can a law whose many weights are solved for be solved with this effect?"""
+        return not isinstance(self.model, Rough) or solvable(self.system([name]))
 
     def _broken_promises(self, name: str) -> str:
         """Of an effect of another distribution; our own are tested."""

@@ -113,4 +113,9 @@ def ranking(laws: Sequence[Law], noise: float, blocks: Blocks, *, like: bool = F
 
 def expected(law: Law, blocks: int) -> float:
     """RMSE to expect on other excitations, unit of the output; blocks : how many were left out."""
-    return law.rmse * (1.0 + law.parameters / blocks)
+    return weighed(law.rmse, law.parameters, blocks)
+
+
+def weighed(rmse: float, parameters: int, blocks: int) -> float:
+    """As of Akaike: RMSE to expect on other excitations of so many parameters, judged by so many blocks."""
+    return rmse * (1.0 + parameters / blocks)

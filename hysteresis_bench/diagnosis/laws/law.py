@@ -157,7 +157,8 @@ class Laws:
         found = Smoothing(problem).searched(judged(self.records, self.dataset))
         full = self.fitter(name, self.dataset.fitted).stack.problem({registry.RECORD_OFFSET})
         values, last = Smoothing(full).refitted(found), last_part(self.records)
-        judged_by = {"unseen": found.left_out, "ahead": Smoothing(problem).without(found, last)}
+        ahead = Smoothing(problem).without(found, Blocks(~last, ~last, 1))[last, 0] if last.any() else np.empty(0)
+        judged_by = {"unseen": found.left_out, "ahead": ahead}
         return self._law(name, full.system, values, parameters=round(found.freedom), begun=begun, **judged_by)
 
     def _law(

@@ -16,7 +16,6 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import autocorrelated
-from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import LEVEL, REACHED
 from hysteresis_bench.fit.least_squares import split
@@ -38,7 +37,7 @@ def only_in_beginnings(found: Found) -> tuple[str, ...] | None:
     records = without_beginnings(thin.stack.records)
     if not found.follows or all(now is before for now, before in zip(records, thin.stack.records, strict=True)):
         return None
-    later = Fitter(replace(thin.stack, records=records), thin.seed)
+    later = replace(thin, stack=replace(thin.stack, records=records))
 
     def gone(rmse: float, with_beginnings: float) -> bool:
         """Is most of what was more than the noise left out with them?"""

@@ -23,7 +23,6 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.view import views_of
-from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.reading.beginnings import without_beginnings
@@ -97,7 +96,7 @@ def _together(found: Found, start: Hypothesis, measured: Dataset) -> tuple[Hypot
     for _ in range(MOST):
         estimated = pasts(*found.thin.fitted(best), measured.fitted)
         records = thinned(views_of(with_pasts(Dataset(measured.fitted), estimated)))
-        now = Fitter(replace(found.thin.stack, records=records), found.thin.seed).followed(best)
+        now = replace(found.thin, stack=replace(found.thin.stack, records=records)).followed(best)
         if known and now.rmse > BETTER * best.rmse:
             break
         best, known = now, estimated

@@ -13,6 +13,7 @@ from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import fitter_of
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
@@ -22,6 +23,7 @@ from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misl
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Selection
+from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.progress import Step
 
 QUIETER = 0.9
@@ -65,15 +67,15 @@ class Found:
 
 def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     """In as many processes as the question's options say."""
-    records = prepared.dataset.fitted
+    records, options, own = thinned(prepared.views), question.options, tuple(question.effects)
+    like = judged(records, prepared.dataset).like
     full, thin = (
-        Fitter(
-            Stack(prepared.model, part, tuple(question.effects), question.bounds, question.fixed), question.options.seed
-        )
-        for part in (records, thinned(prepared.views))
+        fitter_of(Stack(prepared.model, part, own, question.bounds, question.fixed), options.seed, like=like)
+        for part in (prepared.dataset.fitted, records)
     )
     possible, impossible = thin.stack.candidates()
-    options = question.options
+    if question.among is not None:
+        possible = tuple(name for name in possible if name in question.among)
     jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
     with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
         (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])

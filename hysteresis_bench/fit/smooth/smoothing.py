@@ -145,13 +145,16 @@ class Smoothing:
         point = self._point(known)
         return self._solved(self._equations(point), point)[0]
 
-    def without(self, known: Smoothed, out: Array) -> Array:
-        """Errors (left out,) of samples by the law of the same smoothness that counts the others;  out : (samples,)"""
-        if not out.any():
-            return np.empty(0)
-        point, near = self._point(known), np.ones((1, len(self._rows)))
-        equations = self._equations(point, Blocks(~out, (~out).astype(int), 1))
-        return self._predicted(equations, point, near)[out]
+    def without(self, known: Smoothed, blocks: Blocks) -> Array:
+        """Errors (samples, folds) of all samples by the laws of the same smoothness that do not count each fold."""
+        point, errors = self._point(known), np.empty((self.problem.samples, blocks.folds))
+        columns, target = self._columns(point)
+        penalty = 10.0 ** self._power(point) * self._penalty(point, columns.T @ columns)
+        for fold, counts in enumerate(blocks.training.T > 0.0):
+            part = Part(np.flatnonzero(counts), columns[counts], target[counts])
+            found = self._least(part.normal + penalty, part.descent, np.ones(len(self._rows)))
+            errors[:, fold] = target - columns @ found
+        return errors
 
     def _point(self, known: Smoothed) -> Array:
         point = self.problem.space.to_unit(known.values[:, None])[self._others, 0]

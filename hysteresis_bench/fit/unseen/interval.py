@@ -107,12 +107,16 @@ def interval_of(content: Any) -> Interval | None:
     return Interval(widths, value_of(content, "records", int), (float(slow), float(fast)))
 
 
-def interval(problem: Problem, values: Array, held_out: Sequence[Record]) -> Interval:
-    """Of a fit; values : (dimension,), in units;  held_out : records that it has not seen."""
+def interval(problem: Problem, values: Array, held_out: Sequence[Record], left_out: Array | None = None) -> Interval:
+    """Of a fit; values : (dimension,), in units;  held_out : records that it has not seen.
+
+    left_out : (scored samples,) errors by fits without them, where they are known; None: they are made here"""
     records = problem.records
     point = np.clip(problem.space.to_unit(values[:, None])[:, 0], 0.0, 1.0)
     alone = len(records) == 1
-    left = left_out_errors(problem, point, cut(records)) if alone else unseen_errors(problem, point)
+    left = left_out
+    if left is None:
+        left = left_out_errors(problem, point, cut(records)) if alone else unseen_errors(problem, point)
     column = values[:, None]
     new = [problem.system.respond(record, column)[record.scored, 0] - record.measured for record in held_out]
     errors = [*split(left, records), *new]
