@@ -30,7 +30,7 @@ from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, REACHED
 from hysteresis_bench.diagnosis.search.sets import claims
 from hysteresis_bench.fit.identifiability.combinations import listed
-from hysteresis_bench.fit.smooth.smoothing import Rough
+from hysteresis_bench.fit.smooth.rough import Rough
 from hysteresis_bench.fit.unseen.between_samples import FINER, with_finer_steps
 from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset

@@ -33,7 +33,8 @@ from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, not_closed, open_loops, passed
-from hysteresis_bench.fit.smooth.smoothing import SOLVED, Smoothing, solvable
+from hysteresis_bench.fit.smooth.rough import solvable
+from hysteresis_bench.fit.smooth.smoothing import SOLVED, Smoothing
 from hysteresis_bench.fit.unseen.interval import interval
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.kernels.resources import economical

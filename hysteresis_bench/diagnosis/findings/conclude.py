@@ -35,7 +35,7 @@ from hysteresis_bench.fit.model_file import FittedModel, fitted_model
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import gap_after, not_closed
-from hysteresis_bench.fit.smooth.smoothing import solvable
+from hysteresis_bench.fit.smooth.rough import solvable
 from hysteresis_bench.fit.unseen.interval import interval
 from hysteresis_bench.signals import Dataset
 

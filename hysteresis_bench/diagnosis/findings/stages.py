@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy, constant_error
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.smooth.smoothing import Rough
+from hysteresis_bench.fit.smooth.rough import Rough
 from hysteresis_bench.fit.unseen.between_samples import between_samples
 
 

@@ -16,7 +16,8 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter, at_bound
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothed, Smoothing
+from hysteresis_bench.fit.smooth.rough import Rough
+from hysteresis_bench.fit.smooth.smoothing import Smoothed, Smoothing
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.signals import Record

@@ -13,7 +13,7 @@ from hysteresis_bench.contracts import Acts, Effect, Family, Model
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.smooth.smoothing import Rough, solvable
+from hysteresis_bench.fit.smooth.rough import Rough, solvable
 from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record

@@ -21,7 +21,8 @@ from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.least_squares import point_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.settling import gap_after
-from hysteresis_bench.fit.smooth.smoothing import Rough, Smoothing, solvable
+from hysteresis_bench.fit.smooth.rough import Rough, solvable
+from hysteresis_bench.fit.smooth.smoothing import Smoothing
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FURTHER, errors_without, left_out_errors
 from hysteresis_bench.fit.unseen.likeness import judged

@@ -13,12 +13,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from types import SimpleNamespace
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.compose import System
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.pivoting import least_above
 from hysteresis_bench.fit.smooth.starts import starts
@@ -34,23 +33,6 @@ WEIGHTS = 25
 """Of them, tried from the heaviest one down."""
 RIDGE = 1e-10
 """Share of the diagonal that keeps every system definite."""
-
-
-@runtime_checkable
-class Rough(Protocol):
-    """A model whose linear parameters are so many that they want to be smooth."""
-
-    @property
-    def linear(self) -> tuple[str, ...]: ...
-
-    def roughness(self, p: Any) -> Array:
-        """(rows, len(linear)): what a smooth law has little of; p as in `Model.simulate`, a swarm of 1, of which only
-        the parameters that are not linear matter."""
-
-
-def solvable(system: System) -> bool:
-    """Is it a rough law whose linear parameters are still linear behind the effects around it?"""
-    return isinstance(system.model, Rough) and {*system.model.linear} <= {*system.linear}
 
 
 @dataclass(frozen=True, eq=False)
