@@ -150,7 +150,7 @@ def explains_more(smooth: Hypothesis, found: Hypothesis) -> bool:
 def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()) -> Diagnosis:
     """The diagnosis, after other laws were asked whether the records are theirs, and what they need.
 
-    laws : which may be the right one, the question's own among them or not
+    laws : which may be the right one, the question's own among them or not; without any, nobody else is asked
     densities : laws of many parameters, one of which may take this one's place"""
     question, prepared, found = around.question, around.prepared, around.found
     question.options.on_step(Step(f"{question.model}: before and after"))
@@ -159,8 +159,7 @@ def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()
     # noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
     # clearly better shows that it is none, and what one excitation leaves may as well be the law's
     blameless = left.noise and not forms_of(stages.adopted) and found.thin.excitations.varied
-    blameless = blameless or not laws
-    witnesses = [] if blameless else of_few_parameters(registry.names("models"))
+    witnesses = [] if blameless or not laws else of_few_parameters(registry.names("models"))
     doubted = doubt(found, question, laws, witnesses)
     if doubted != Doubt():
         known, found = found, answered(found, doubted, question.options)

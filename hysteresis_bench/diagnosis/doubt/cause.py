@@ -25,6 +25,7 @@ from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import NAMED, REACHED
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
+from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.signals import Record
 
 PURSUED = 3
@@ -67,15 +68,21 @@ def law_as_cause(
     promising = [one.model for one in sorted(screened, key=lambda one: one.rmse)[:PURSUED] if one.rmse < reach]
     predicting = workers.map([("predicting", name) for name in promising])
     best = min(predicting, key=lambda one: one.rmse, default=NOBODY)
-    explained, excess = own.rmse**2 - best.rmse**2, own.rmse**2 - floor**2
-    explains = own.rmse > REACHED * best.rmse and explained > NAMED * excess
-    clearly = explains and advantage(best.errors, own.errors, fitter.blocks) > CLEAR
-    if not clearly:
+    if not clearly_better(best, own, floor, fitter.blocks):
         reached = REACHED * max(own.rmse, floor)
         most = _in_use(fitter, found.final) if sum(map(is_shape, own.effects)) < 2 else np.inf
         as_well = [one for one in predicting if curves and one.parameters <= most and one.rmse <= reached]
         best = min(as_well, key=lambda one: one.rmse, default=NOBODY)
     return None if best is NOBODY else Cause(best.model, best.effects, best.rmse, own.rmse)
+
+
+def clearly_better(one: Contender, other: Contender, floor: float, blocks: Blocks) -> bool:
+    """Does it do clearly better on records left out, and explain more than then remains of the excess over the noise?
+
+    floor : RMS of the noise;  blocks : of the samples"""
+    explained, excess = other.rmse**2 - one.rmse**2, other.rmse**2 - floor**2
+    explains = other.rmse > REACHED * one.rmse and explained > NAMED * excess
+    return bool(explains and advantage(one.errors, other.errors, blocks) > CLEAR)
 
 
 def _in_use(fitter: Fitter, final: Hypothesis) -> int:

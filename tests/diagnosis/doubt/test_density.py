@@ -8,6 +8,7 @@ import pytest
 from hysteresis_bench import DiagnosisOptions
 from hysteresis_bench.diagnosis.around import concluded, searched
 from hysteresis_bench.diagnosis.doubt.density import _better
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.whole import LeftOut
@@ -64,12 +65,6 @@ def test_a_density_takes_the_place_of_a_law_that_does_not_follow(lag, names_only
     assert found.model.interval.half_widths[50] < 8.0 * NOISE
 
 
-def of(errors, parameters):
-    hypothesis = Of()
-    fitter = Of(unseen=lambda _: errors, fitted_values=lambda _: parameters, blocks=Blocks(np.arange(40) // 2, None, 4))
-    return hypothesis, fitter
-
-
 @pytest.mark.parametrize(
     ("own", "parameters", "like", "takes"),
     [
@@ -82,8 +77,7 @@ def of(errors, parameters):
 )
 def test_a_density_has_to_do_clearly_better(own, parameters, like, takes):
     sign = (-1.0) ** np.arange(40) * (1.0 + 0.1 * np.sin(np.arange(40)))
-    dense, fitter = of(own * sign, parameters)
-    final, thin = of(sign, 5)
-    found = Of(thin=thin, final=final, selection=Of(floor=0.1))
-    out = LeftOut(Blocks(np.arange(40) // 2, np.zeros(40, dtype=int), 1), telling=True, like=like)
-    assert _better(found, fitter, dense, out) is takes
+    dense, law = Contender("preisach-hats", (), own * sign, parameters), Contender("dahl", (), sign, 5)
+    blocks = Blocks(np.arange(40) // 2, np.zeros(40, dtype=int), 1)
+    found = Of(thin=Of(blocks=blocks), selection=Of(floor=0.1))
+    assert _better(dense, law, found, LeftOut(blocks, telling=True, like=like)) is takes
