@@ -185,6 +185,7 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     from rich.table import Table
 
     from hysteresis_bench.data.units import rounded
+    from hysteresis_bench.report.fit.folder import MODEL, spared, spared_words
     from hysteresis_bench.report.shared.text import sentence
 
     colour = {"effect-found": "green", "no-effect-needed": "green", "unexplained-residual": "yellow"}[found.verdict]
@@ -208,10 +209,15 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
         console.print(f"{row.effect}: not applicable: {escape(row.reason)}", highlight=False, style="dim")
 
     table = Table("parameter", "value", "standard error", "unit", box=None, pad_edge=False)
+    left_out = spared(found.model)
     for name, estimate in found.model.parameters.items():
+        if name in left_out:
+            continue
         error = "not determined" if estimate.standard_error is None else rounded(estimate.standard_error)
         table.add_row(name, f"{estimate.value:.5g}", error, escape(estimate.unit))
     console.print(table)
+    if left_out:
+        console.print(spared_words(left_out, MODEL), highlight=False)
 
     for family in found.families:
         console.print(escape(family.sentence), highlight=False)

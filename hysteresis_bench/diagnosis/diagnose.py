@@ -124,8 +124,8 @@ def _told(best: Diagnosis, found: Sequence[Around], laws: Comparison) -> str:
     dense = [law for law in laws.ranked if law not in few]
     if best.model_name in dense:
         rest += (
-            " That law has many parameters, among which effects would be lost: those that were found around the other "
-            "were asked for again."
+            " That law has many parameters, among which effects would be lost: only what was found around a law of few "
+            "was asked for again."
         )
     elif better := next((law for law in dense if unseen[law] < best.unseen), ""):
         rest += (

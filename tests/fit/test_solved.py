@@ -1,9 +1,11 @@
 """A law of many linear parameters is solved for by `fit`, not searched."""
 
 import numpy as np
+from rich.console import Console
 
 from hysteresis_bench import fit
 from hysteresis_bench.fit.smooth.smoothing import SOLVED
+from hysteresis_bench.report.fit.folder import print_fit, spared, spared_words
 from hysteresis_bench.signals import Dataset, Record
 from hysteresis_plugins.models.preisach_hats import PreisachHats
 from tests.plugins.truths import simulated
@@ -30,3 +32,19 @@ def test_a_smooth_density_is_solved_for_and_predicts_what_is_held_out():
     weights = found.parameters[found.parameters["name"].str.match(r"w\d")]
     assert weights["standard_error"].isna().all()
     assert np.isfinite(found.parameters.set_index("name").loc["radius", "standard_error"])
+
+
+def test_the_terminal_leaves_out_weights_of_which_no_single_one_is_determined():
+    records = (record(1.0, "one"), record(0.6, "two"))
+    few, many = (
+        fit(Dataset(records), "preisach-hats", settings={"plays": 2, "pieces": pieces}).model for pieces in (3, 12)
+    )
+    assert spared(few) == []
+    weights = [name for name in many.parameters if name.startswith("w")]
+    assert {*weights} <= {*spared(many)}
+    assert "radius" not in spared(many)
+    console = Console(record=True, width=100)
+    print_fit(fit(Dataset(records), "preisach-hats", settings={"plays": 2, "pieces": 12}), console)
+    said = console.export_text()
+    assert spared_words(spared(many), "parameters.csv") in said
+    assert "w1_5" not in said

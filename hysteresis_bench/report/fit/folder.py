@@ -16,7 +16,7 @@ from rich.table import Table
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.data.units import rounded
 from hysteresis_bench.fit.fitting import Fit
-from hysteresis_bench.fit.model_file import write_model
+from hysteresis_bench.fit.model_file import FittedModel, write_model
 from hysteresis_bench.report.fit.page import FILE, write_fit_page
 from hysteresis_bench.report.laws.memory import memory_section
 from hysteresis_bench.report.shared.text import listed
@@ -25,7 +25,7 @@ MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
 FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
 
 MOST = 30
-"""Parameters of which the terminal shows all: of a density of many weights it leaves out those that are 0."""
+"""Parameters of which the terminal shows all: of more it leaves out those that are not determined one by one."""
 
 
 def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
@@ -56,21 +56,31 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
     return write_fit_page(folder, summary, fit.responses, memory_section(folder, fit.model, inputs))
 
 
+def spared(model: FittedModel) -> list[str]:
+    """Parameters that the terminal leaves out, such as the weights of a density, of which no single one means much."""
+    unknown = [name for name, estimate in model.parameters.items() if estimate.standard_error is None]
+    return unknown if len(model.parameters) > MOST else []
+
+
+def spared_words(left_out: Sequence[str], file: str) -> str:
+    """How many are left out, and where all of them stand."""
+    return f"{len(left_out)} more are not determined one by one; all stand in {file}."
+
+
 def print_fit(fit: Fit, console: Console) -> None:
     """Parameters, errors, agreement and warnings."""
     parameters = Table(title=f"{fit.model.model}: parameters", title_justify="left", box=None, title_style="bold")
     for heading, side in (("parameter", "left"), ("value", "right"), ("± standard error", "right"), ("unit", "left")):
         parameters.add_column(heading, justify=side)  # type: ignore[arg-type]
-    zero = (fit.parameters["value"] == 0.0) & fit.parameters["standard_error"].isna()
-    spared = zero if len(zero) > MOST else zero & False
-    for row in fit.parameters[~spared].itertuples(index=False):
+    left_out = spared(fit.model)
+    for row in fit.parameters[~fit.parameters["name"].isin(left_out)].itertuples(index=False):
         known = row.standard_error is not None and pd.notna(row.standard_error)
         error = rounded(row.standard_error) if known else "not determined"
         mark = "  at bound" if row.at_bound else ""
         parameters.add_row(row.name, f"{row.value:.6g}", error, row.unit + mark, style="yellow" if mark else "")
     console.print(parameters)
-    if spared.any():
-        console.print(f"{spared.sum()} more are 0 and not determined; all stand in {PARAMETERS}.", highlight=False)
+    if left_out:
+        console.print(spared_words(left_out, PARAMETERS), highlight=False)
     unit = fit.model.units["output"]
     rmse = "RMSE" if unit == "1" else f"RMSE [{unit}]"
     errors = Table(title="errors", title_justify="left", box=None, title_style="bold")
