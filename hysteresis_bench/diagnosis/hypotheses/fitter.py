@@ -188,10 +188,13 @@ class Fitter:
         """Is the larger one better than chance? Not where what it has more is no wider than the input's noise."""
         if any(self.drowned(larger, name) for name in larger.names - smaller.names):
             return NestedTest(0.0, 1.0, 0)
-        known, all_ = (self.fitted_values(hypothesis) for hypothesis in (smaller, larger))
         nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
+        return self._tested(smaller, larger, 0 if nuisance else SEARCHED)
+
+    def _tested(self, smaller: Hypothesis, larger: Hypothesis, searched: int) -> NestedTest:
+        known, all_ = (self.fitted_values(hypothesis) for hypothesis in (smaller, larger))
         less, more = (split(hypothesis.residuals, self.stack.records) for hypothesis in (smaller, larger))
-        return nested_test(less, more, max(all_ - known, 1) + (0 if nuisance else SEARCHED), all_)
+        return nested_test(less, more, max(all_ - known, 1) + searched, all_)
 
     def fitted_values(self, hypothesis: Hypothesis) -> int:
         """Parameters, and what effects estimate on every record."""

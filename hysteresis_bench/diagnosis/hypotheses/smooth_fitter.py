@@ -15,7 +15,9 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter, at_bound
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.smooth.rough import Rough
 from hysteresis_bench.fit.smooth.smoothing import Smoothed, Smoothing
 from hysteresis_bench.fit.unseen.blocks import Blocks
@@ -72,6 +74,13 @@ class SmoothFitter(Fitter):
     def fitted_values(self, hypothesis: Hypothesis) -> int:
         assert isinstance(hypothesis, Smooth)
         return round(hypothesis.freedom)
+
+    def _tested(self, smaller: Hypothesis, larger: Hypothesis, searched: int) -> NestedTest:
+        """Of the errors left out: with an effect in its place the density may be less smooth, and what it gains by that
+        on what it was fitted to is not told by the number of the effect's parameters, nor by the freedom it uses."""
+        added = max(super().fitted_values(larger) - super().fitted_values(smaller), 1) + searched
+        less, more = (split(hypothesis.left_out, self.stack.records) for hypothesis in (smaller, larger))
+        return nested_test(less, more, added, added)
 
     def _smoothed(self, hypothesis: Hypothesis) -> Smoothed:
         assert isinstance(hypothesis, Smooth)

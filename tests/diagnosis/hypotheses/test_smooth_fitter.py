@@ -1,6 +1,8 @@
 """A law of many parameters is solved for: one answer a set of effects, and errors of what is left out like those of a
 fit to the rest."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -68,3 +70,14 @@ def test_an_effect_behind_which_the_weights_are_not_linear_is_not_tried(fitter):
     assert "drift" in possible
     assert "many weights" in impossible["saturation"]
     assert "output-curve" not in fitter.stack.free_forms()
+
+
+def test_an_effect_is_needed_however_smooth_the_density_is_without_it(fitter):
+    """Without a constant far larger than the loops a smooth density is the best one: what it has less of freedom does
+    not count against the constant."""
+    far = replace(fitter.stack, records=tuple(replace(one, output=one.output + 30.0) for one in fitter.stack.records))
+    far = fitter_of(far, 0)
+    none, constant = far.from_anywhere(frozenset()), far.from_anywhere(frozenset({registry.COMMON_OFFSET}))
+    assert constant.rmse < 0.1 * none.rmse
+    assert far.test(none, constant).p < 1e-6
+    assert far.test(none, constant).added == 1
