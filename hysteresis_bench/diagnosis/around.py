@@ -178,7 +178,8 @@ def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()
 
 def _left(stages: Stages, found: Found) -> Remainder:
     """In the residual of the last stage; what a black box predicts of records left out is no noise."""
-    left, several = remainder(stages.after, found.evidence), len(found.thin.stack.records) > 1
+    left = remainder(stages.after, found.evidence, found.thin.fitted_values(found.final))
+    several = len(found.thin.stack.records) > 1
     return left.of_a_cause() if several and left.noise and found.ceiling.better else left
 
 

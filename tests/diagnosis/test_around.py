@@ -19,6 +19,7 @@ SLOW = Remainder(None, matters=False, slow=True, heavy=False, louder=False)
     ],
 )
 def test_what_a_black_box_predicts_of_other_records_is_no_noise(monkeypatch, records, predicted, noise):
-    monkeypatch.setattr(around, "remainder", lambda stage, evidence: SLOW)
-    found = Of(thin=Of(stack=Of(records=(None,) * records)), evidence=None, ceiling=Of(better=predicted))
+    monkeypatch.setattr(around, "remainder", lambda stage, evidence, parameters: SLOW)
+    thin = Of(stack=Of(records=(None,) * records), fitted_values=lambda hypothesis: 4)
+    found = Of(thin=thin, final=None, evidence=None, ceiling=Of(better=predicted))
     assert around._left(Of(after=None), found).noise is noise

@@ -67,7 +67,7 @@ def conclude(
         after = _described(found, left.equation, prepared)
         adopted = (*adopted, registry.DESCRIPTION)
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
-        left = remainder(after, evidence)
+        left = remainder(after, evidence, found.thin.fitted_values(found.final) + len(left.equation.terms))
     model = replace(
         _model(after, prepared, question),
         interval=interval(after.problem, after.values, prepared.dataset.held_out, _left_out(found)),

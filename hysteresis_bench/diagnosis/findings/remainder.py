@@ -65,8 +65,9 @@ class Remainder:
         return replace(self, matters=self.matters or self.noise, slow=False, heavy=False)
 
 
-def remainder(stage: Stage, evidence: Evidence) -> Remainder:
-    """What is left at the end of a diagnosis, over all fitted records."""
+def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
+    """What is left at the end of a diagnosis, over all fitted records;  parameters : of the stage, effective ones of a
+    density"""
     views, floor = evidence.views, evidence.floor
     scope = OVERALL if len(views) > 1 else views[0].record.name
     tests = [test for test in stage.tests if test.record == scope and test.significant]
@@ -75,7 +76,7 @@ def remainder(stage: Stage, evidence: Evidence) -> Remainder:
         t for t in tests if t.share > TELLING and t.name not in ("noise-floor", "offset") and "scatter" not in t.name
     ]
     residuals, simulated = left_by(stage, views)
-    louder = _louder(stage, residuals, floor)
+    louder = _louder(stage, residuals, floor, parameters)
     if stage.fitted.rmse <= floor or not (loud or telling):
         return Remainder(None, False, False, False, louder)
     equation = find_terms([view.record for view in views], residuals, simulated)
@@ -98,7 +99,7 @@ def _hidden(residuals: Sequence[Array], tests: int) -> float:
     return rms * math.sqrt(overlooked(effective_samples(residuals), DEPENDENCE, OF_A_TEST / max(tests, 1)))
 
 
-def _louder(stage: Stage, residuals: Sequence[Array], floor: float) -> bool:
+def _louder(stage: Stage, residuals: Sequence[Array], floor: float, parameters: int) -> bool:
     """Is what was held out missed by more than what was fitted, and than the noise? Both are as loud in every record.
 
     An F test of the mean squares, with as many effective samples as one of the fitted records has; twice as much is too
@@ -109,8 +110,8 @@ def _louder(stage: Stage, residuals: Sequence[Array], floor: float) -> bool:
     level = float(np.mean(np.concatenate(squares)))
     ratio = stage.held_out.rmse**2 / max(level, floor**2)
     effective = effective_samples([part - level for part in squares])
-    corrected = ratio * effective / (effective + 2.0 * stage.values.size)
-    p = f_tail(corrected, effective / len(residuals), effective - stage.values.size)
+    corrected = ratio * effective / (effective + 2.0 * parameters)
+    p = f_tail(corrected, effective / len(residuals), effective - parameters)
     return ratio > WRONG**2 or (ratio > MISFIT**2 and p < LEVEL)
 
 

@@ -7,13 +7,12 @@ import pytest
 
 from hysteresis_bench.diagnosis.findings.remainder import Remainder, _hidden, _louder, other_zero
 
-RECORDS, SAMPLES = 4, 800
+RECORDS, SAMPLES, PARAMETERS = 4, 800, 4
 
 
 def stage(held_out):
-    """Four parameters; held_out : RMSE, None where nothing is held out."""
-    held = None if held_out is None else Of(rmse=held_out)
-    return Of(held_out=held, values=np.zeros(4))
+    """held_out : RMSE, None where nothing is held out."""
+    return Of(held_out=None if held_out is None else Of(rmse=held_out))
 
 
 def residuals(seed, decay=0.9):
@@ -32,22 +31,27 @@ def test_another_record_of_the_same_noise_is_not_louder():
     called = 0
     for seed in range(200):
         *fitted, other = [*residuals(seed), residuals(1000 + seed)[0]]
-        called += _louder(stage(float(np.sqrt(np.mean(other**2)))), fitted, 0.0)
+        called += _louder(stage(float(np.sqrt(np.mean(other**2)))), fitted, 0.0, PARAMETERS)
     assert called <= 6  # level 0.01; more than 6 of 200 has a probability of 0.004
 
 
 @pytest.mark.parametrize("held_out", [1.8, 3.0])
 def test_what_is_missed_by_much_more_is_louder(held_out):
-    assert _louder(stage(held_out), residuals(1), 1.0)
+    assert _louder(stage(held_out), residuals(1), 1.0, PARAMETERS)
+
+
+def test_of_more_parameters_the_fit_is_expected_to_leave_less_than_the_noise():
+    assert _louder(stage(1.4), residuals(1), 1.0, PARAMETERS)
+    assert not _louder(stage(1.4), residuals(1), 1.0, 80)
 
 
 def test_where_nothing_was_held_out_nothing_is_louder():
-    assert not _louder(stage(None), residuals(1), 1.0)
+    assert not _louder(stage(None), residuals(1), 1.0, PARAMETERS)
 
 
 def test_a_fit_below_the_noise_makes_nothing_else_louder():
-    assert _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 0.0)
-    assert not _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 1.0)
+    assert _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 0.0, PARAMETERS)
+    assert not _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 1.0, PARAMETERS)
 
 
 def test_noise_of_many_independent_samples_hides_little():
