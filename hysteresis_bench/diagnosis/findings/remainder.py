@@ -66,8 +66,9 @@ class Remainder:
 
 
 def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
-    """What is left at the end of a diagnosis, over all fitted records;  parameters : of the stage, effective ones of a
-    density"""
+    """What is left at the end of a diagnosis, over all fitted records.
+
+    parameters : how many the stage's fit uses up, of a density the effective number"""
     views, floor = evidence.views, evidence.floor
     scope = OVERALL if len(views) > 1 else views[0].record.name
     tests = [test for test in stage.tests if test.record == scope and test.significant]

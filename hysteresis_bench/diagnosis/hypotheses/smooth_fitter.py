@@ -76,8 +76,8 @@ class SmoothFitter(Fitter):
         return round(hypothesis.freedom)
 
     def _tested(self, smaller: Hypothesis, larger: Hypothesis, searched: int) -> NestedTest:
-        """Of the errors left out: with an effect in its place the density may be less smooth, and what it gains by that
-        on what it was fitted to is not told by the number of the effect's parameters, nor by the freedom it uses."""
+        """Of the errors left out, with the effect's own parameters: beside it the density may be less smooth, and what
+        that alone takes off the errors of the fit is not the effect's."""
         added = max(super().fitted_values(larger) - super().fitted_values(smaller), 1) + searched
         less, more = (split(hypothesis.left_out, self.stack.records) for hypothesis in (smaller, larger))
         return nested_test(less, more, added, added)
