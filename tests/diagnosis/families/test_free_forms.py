@@ -4,6 +4,7 @@ import json
 
 import numpy as np
 import pytest
+from scipy.signal import lfilter
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
@@ -109,3 +110,31 @@ def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out
     assert {*curves} <= {"input-curve", "output-curve"}
     assert found.rmse > 1.2 * floor, "it is no name"
     assert unseen_rmse(fitter, found) < 0.3 * unseen_rmse(fitter, bare)
+
+
+def test_families_are_told_around_a_law_far_from_the_noise_where_nearly_all_that_is_left_out_is_predicted():
+    """Two relaxations and a square root of time, no formula of the program's, around a law a little wrong."""
+    model = registry.build("models", "bouc-wen")
+    example, time, rng = model.example, np.linspace(0.0, 10.0, 300), np.random.default_rng(0)
+    values = np.array([example.parameters[p.name] for p in model.parameters])[:, None]
+    records = []
+    for number, (share, frequency) in enumerate(((1.0, 0.3), (0.7, 2.0), (0.85, 0.8))):
+        u = example.amplitude * share * np.sin(2 * np.pi * frequency * time) * (0.6 + 0.04 * time)
+        y = System(model).simulate(Record(time, u, None).signal, values)[:, 0]
+        size = np.ptp(y)
+        y += 0.008 * size * np.sin(9.0 * u / example.amplitude)  # the fault
+        y = 0.6 * _relaxed(time, y, 0.03) + 0.4 * _relaxed(time, y, 0.4) + 0.2 * size * np.sqrt(time / time[-1])
+        records.append(Record(time, u, y + 0.002 * size * rng.standard_normal(y.size), name=f"run {number}"))
+    fitter = Fitter(Stack(model, tuple(records)))
+    floor = 0.002 * float(np.ptp(records[0].output))
+    selection = Selection(fitter, Workers(fitter, 1), floor, ())
+    bare = fitter.bare(frozenset({registry.RECORD_OFFSET}))
+    found = with_free_forms(selection, bare)
+    assert set(selection.adopted(found)) == {"lags-after", "zero-with-time"}
+    assert found.rmse > 1.2 * floor, "the law is wrong"
+    assert unseen_rmse(fitter, found) < 0.3 * unseen_rmse(fitter, bare)
+
+
+def _relaxed(time, y, constant):
+    kept = np.exp(-time[1] / constant)
+    return y[0] + lfilter([1.0 - kept], [1.0, -kept], y - y[0])
