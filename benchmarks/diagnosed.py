@@ -56,6 +56,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
     parser.add_argument("--out", type=Path, default=ROOT / "results" / "real-measurements")
     parser.add_argument("--timeout", type=int, default=LATE)
     given = parser.parse_args(arguments)
+    given.out.mkdir(parents=True, exist_ok=True)
     path = given.out / FOUND
     rows = pd.read_csv(path, keep_default_na=False) if path.is_file() else pd.DataFrame(columns=["device"])
     for device in DEVICES:
