@@ -46,8 +46,8 @@ def _answer(rows: pd.DataFrame, plain: pd.Series, missing: list[str]) -> Bullets
     if missing:
         told.append(f"Not asked, or not ended in ten minutes: {listed(missing)}.")
     told.append(
-        "That names and families stand far from the noise where they predict nearly all of records left out was added "
-        "after it was seen that of the FeFET such were dropped, with what they leave of the record held out."
+        "That names and families stand far from the noise, where they predict nearly all of records left out, was "
+        "added after it was seen what such effects, then dropped, leave of the record held out of the FeFET."
     )
     return Bullets(told)
 

@@ -34,7 +34,7 @@ def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
 
     found : what passed every test. The wrong formula of one effect may leave so much that the right one of another
     explains less than what is left, and is not named: free forms are tried beside both first, and are taken if no more
-    is claimed then: in the place of formulas, not beside them.
+    is claimed then: in the place of formulas, not beside them. Far from the noise as of `_foretelling`.
     """
     names, named = selection.candidates, selection.named(found)
     selection.forms = selection.fitter.stack.free_forms()
@@ -76,6 +76,7 @@ def _foretelling(selection: Selection, named: Hypothesis, others: list[Hypothesi
 
 
 def _foretells(selection: Selection, smaller: Hypothesis, larger: Hypothesis) -> bool:
+    """Does the larger system predict records left out clearly better, and leave less than `REMAINING`?"""
     fitter = selection.fitter
     more, less = (unseen_rmse(fitter, one) ** 2 - selection.floor**2 for one in (larger, smaller))
     clear = advantage(fitter.unseen(larger), fitter.unseen(smaller), fitter.blocks) > CLEAR

@@ -92,14 +92,11 @@ def test_a_course_is_told_in_words(y, words):
 
 def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out():
     """A curve has no dynamics: with it a law of another shape is just another law, where it is no cause."""
+    rng, records = np.random.default_rng(0), []
     model = registry.build("models", "jiles-atherton")
-    example, time, rng = model.example, np.linspace(0.0, 10.0, 500), np.random.default_rng(0)
-    values = np.array([example.parameters[p.name] for p in model.parameters])[:, None]
-    records = []
-    for number, (share, frequency) in enumerate(((1.0, 0.3), (0.7, 0.5), (0.85, 0.4))):
-        u = example.amplitude * share * np.sin(2 * np.pi * frequency * time) * (0.6 + 0.04 * time)
-        y = System(model).simulate(Record(time, u, None).signal, values)[:, 0]
-        records.append(Record(time, u, y + 0.001 * np.ptp(y) * rng.standard_normal(y.size), name=f"run {number}"))
+    for time, u, y in responses(model, 500, ((1.0, 0.3), (0.7, 0.5), (0.85, 0.4))):
+        noisy = y + 0.001 * np.ptp(y) * rng.standard_normal(y.size)
+        records.append(Record(time, u, noisy, name=f"run {len(records)}"))
     fitter = Fitter(Stack(registry.build("models", "bouc-wen", {}), tuple(records)))
     floor = 0.001 * float(np.ptp(records[0].output))
     selection = Selection(fitter, Workers(fitter, 1), floor, ())
@@ -114,17 +111,14 @@ def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out
 
 def test_families_are_told_around_a_law_far_from_the_noise_where_nearly_all_that_is_left_out_is_predicted():
     """Two relaxations and a square root of time, no formula of the program's, around a law a little wrong."""
+    rng, records = np.random.default_rng(0), []
     model = registry.build("models", "bouc-wen")
-    example, time, rng = model.example, np.linspace(0.0, 10.0, 300), np.random.default_rng(0)
-    values = np.array([example.parameters[p.name] for p in model.parameters])[:, None]
-    records = []
-    for number, (share, frequency) in enumerate(((1.0, 0.3), (0.7, 2.0), (0.85, 0.8))):
-        u = example.amplitude * share * np.sin(2 * np.pi * frequency * time) * (0.6 + 0.04 * time)
-        y = System(model).simulate(Record(time, u, None).signal, values)[:, 0]
+    for time, u, y in responses(model, 300, ((1.0, 0.3), (0.7, 2.0), (0.85, 0.8))):
         size = np.ptp(y)
-        y += 0.008 * size * np.sin(9.0 * u / example.amplitude)  # the fault
+        y += 0.008 * size * np.sin(9.0 * u / model.example.amplitude)  # the fault
         y = 0.6 * _relaxed(time, y, 0.03) + 0.4 * _relaxed(time, y, 0.4) + 0.2 * size * np.sqrt(time / time[-1])
-        records.append(Record(time, u, y + 0.002 * size * rng.standard_normal(y.size), name=f"run {number}"))
+        noisy = y + 0.002 * size * rng.standard_normal(y.size)
+        records.append(Record(time, u, noisy, name=f"run {len(records)}"))
     fitter = Fitter(Stack(model, tuple(records)))
     floor = 0.002 * float(np.ptp(records[0].output))
     selection = Selection(fitter, Workers(fitter, 1), floor, ())
@@ -138,3 +132,12 @@ def test_families_are_told_around_a_law_far_from_the_noise_where_nearly_all_that
 def _relaxed(time, y, constant):
     kept = np.exp(-time[1] / constant)
     return y[0] + lfilter([1.0 - kept], [1.0, -kept], y - y[0])
+
+
+def responses(model, samples, excitations):
+    """Time, input and output of a model's example; excitations : share of its amplitude, and frequency in Hz."""
+    example, time = model.example, np.linspace(0.0, 10.0, samples)
+    values = np.array([example.parameters[p.name] for p in model.parameters])[:, None]
+    for share, frequency in excitations:
+        u = example.amplitude * share * np.sin(2 * np.pi * frequency * time) * (0.6 + 0.04 * time)
+        yield time, u, System(model).simulate(Record(time, u, None).signal, values)[:, 0]
