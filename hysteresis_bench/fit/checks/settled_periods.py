@@ -26,6 +26,12 @@ SAID = (
     "had settled, and loops were passed before they were scored. --no-settle begins them at rest."
 )
 
+OPEN = (
+    "These records were to be passed as settled loops, and are none: the input ends where it began, the output does "
+    "not, by so much of its range: {}. A settled model cannot follow that, and an effect may be named for it. "
+    "--no-settle begins them at rest."
+)
+
 FEWEST, MOST = 40, 1000
 """Scored samples from which a record can tell, and that are looked at."""
 PLAYS = np.array((0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8))
@@ -47,6 +53,22 @@ def settled_periods(records: Sequence[Record], asked: bool | None = None) -> boo
     records : with outputs, as the model sees them, not repeated
     """
     return asked if asked is not None else bool(records) and all(map(_is_one, records))
+
+
+def said_of(records: Sequence[Record], asked: bool | None) -> tuple[str, ...]:
+    """Of loops that are passed: that the records say so or, where it was asked, which of them say otherwise.
+
+    records, asked : as of `settled_periods`
+    """
+    if asked is None:
+        return (SAID,)
+    gaps = {
+        record.name: abs(float(record.output[-1] - record.output[0])) / float(np.ptp(record.output))
+        for record in records
+        if record.output is not None and is_closed(record) and not _comes_back(record.input, record.output)
+    }
+    off = ", ".join(f"{name} ({100.0 * gap:.2g} %)" for name, gap in gaps.items() if gap > 0.0)
+    return (OPEN.format(off),) if off else ()
 
 
 def _is_one(record: Record) -> bool:
