@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.search import Found, with_fewer, with_more
 from hysteresis_bench.diagnosis.search.selection import MISFIT, REACHED
+from hysteresis_bench.diagnosis.search.sets import fits
 
 SCREENED = 1000
 """Samples to which every law is fitted first. With half and with twice as many the same laws passed on four made cases,
@@ -30,12 +31,14 @@ class Doubt:
     """cause : the law that does clearly better;  agreement : of the laws, where none leaves about the noise
     untested : far from the noise, only one excitation speaks for what was adopted, of one amplitude and frequency
     carrying : what was adopted and carries the loop alone
+    free : free forms that were adopted though the noise is not reached: they follow any law's fault
     """
 
     cause: Cause | None = None
     agreement: Agreement | None = None
     untested: bool = False
     carrying: tuple[str, ...] = ()
+    free: tuple[str, ...] = ()
 
     def asks_for(self, adopted: Sequence[str]) -> list[str]:
         """Effects that are needed, and for which nothing alike was adopted."""
@@ -45,8 +48,8 @@ class Doubt:
     def holding(self, adopted: Sequence[str]) -> dict[str, tuple[str, ...]]:
         """Of the adopted effects those that are more than stand-ins for the law, as far as is known, each with what is
         taken in its place around other laws."""
-        adopted = [name for name in adopted if name not in self.carrying]
-        if self == Doubt(carrying=self.carrying):
+        adopted = [name for name in adopted if name not in (*self.carrying, *self.free)]
+        if self == Doubt(carrying=self.carrying, free=self.free):
             return {name: () for name in adopted}
         likes = self.agreement.effects if self.agreement else {}
         groups = {name: (needed, *likes.get(needed, ())) for name, needed in self._matched(adopted).items()}
@@ -76,9 +79,10 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     """
     options, stack, asked, floor = question.options, found.thin.stack, question.model, found.selection.floor
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
-    alone = carrying(found)
-    if not found.follows or (final.rmse <= REACHED * floor and not forms_of(final.effects)):
-        return Doubt(carrying=alone)
+    forms = tuple(forms_of(final.effects))
+    known = Doubt(carrying=carrying(found), free=() if fits(found.selection, found.best) else forms)
+    if not found.follows or (final.rmse <= REACHED * floor and not forms):
+        return known
     few = thinned(views_of(stack.records), SCREENED)
     around = OtherLaws(asked, stack, few, in_question(found), floor, options.seed, _values(found))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
@@ -89,12 +93,13 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         screened = workers.map([("screened", name) for name in others])
         cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):
-            return Doubt(cause, untested=untested, carrying=alone)
+            return replace(known, cause=cause, untested=untested)
         (own,) = workers.map([("needy", asked)])
         good = [one.model for one in screened if one.rmse <= own.rmse and is_rate_independent(one.model)]
         needy = workers.map([("needy", name) for name in good])
-        shaped = is_rate_independent(asked) and any(map(is_shape, (*own.effects, *forms_of(final.effects))))
-        return Doubt(cause, agreement(own, needy) if needy or shaped else None, untested, alone)
+        shaped = is_rate_independent(asked) and any(map(is_shape, (*own.effects, *forms)))
+        agreed = agreement(own, needy) if needy or shaped else None
+        return replace(known, cause=cause, agreement=agreed, untested=untested)
 
 
 def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:

@@ -95,7 +95,8 @@ class Outcome:
     @property
     def doubted(self) -> bool:
         """Is so much left that the names may stand in for what is wrong with the law?"""
-        return self.leaves_much and self.doubt == Doubt()
+        free = self.doubt.free
+        return (self.leaves_much or bool(free)) and self.doubt == Doubt(free=free)
 
     @property
     def doubtful(self) -> bool:
@@ -118,7 +119,7 @@ class Outcome:
 def headline(outcome: Outcome) -> str:
     """The verdict, with the error before and after; an effect that is tied is never named alone, and one beside
     which much more than the noise is left is named with a doubt."""
-    before, after = outcome.before, outcome.after
+    before, after, doubt = outcome.before, outcome.after, outcome.doubt
     unit = "" if outcome.units.get("output", "1") == "1" else f" {outcome.units['output']}"
     first, last = (stage.held_out or stage.fitted for stage in (before, after))
     where = "on what was held out" if after.held_out else "on what was fitted"
@@ -132,11 +133,11 @@ def headline(outcome: Outcome) -> str:
         said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
     elif outcome.refuted and outcome.stand_ins:
         said = f"No effect is named, as what helps on what was fitted does not carry over: with it, {moved}"
-    elif (outcome.doubt.agreement or outcome.doubt.untested) and outcome.stand_ins:
+    elif outcome.stand_ins and (doubt.agreement or doubt.untested or (doubt.free and not outcome.cause)):
         said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
-    elif (outcome.cause or outcome.doubt.carrying) and outcome.stand_ins:
+    elif (outcome.cause or doubt.carrying) and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
-    elif outcome.doubt.agreement:
+    elif doubt.agreement:
         said = f"No effect is named: {where} the RMSE is {last.rmse:.3g}{unit}"
     elif outcome.cause:
         said = f"No effect is named, as the law itself is the cause: {where} the RMSE is {last.rmse:.3g}{unit}"
@@ -147,7 +148,7 @@ def headline(outcome: Outcome) -> str:
     said += other_zero(after, outcome.evidence.floor, unit)
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
-    if outcome.doubt != Doubt():
+    if doubt != Doubt():
         said += f" {' '.join(_of_the_law(outcome))}"
     elif outcome.left.louder and outcome.leaves[0] <= WRONG:
         said += f" What was held out is missed by {rounded(outcome.leaves[1])} times the noise: something is lacking."

@@ -79,3 +79,9 @@ def test_beside_an_agreement_only_what_the_better_law_needs_too_holds():
     agreed = agreement(ASKED, [law(name, 2.0, "input-lag", "drift") for name in "abc"])
     assert Doubt(None, agreed).holding(["resonance"]) == {"resonance": ("input-lag",)}
     assert Doubt(Cause("better", ("saturation",), 1.0, 5.0), agreed).holding(["input-lag"]) == {}
+
+
+def test_free_forms_far_from_the_noise_are_no_names_and_what_is_named_beside_them_holds():
+    doubted = Doubt(free=("lags-before",))
+    assert doubted.holding(["creep", "lags-before"]) == {"creep": ()}
+    assert doubted.asks_for(["creep", "lags-before"]) == []

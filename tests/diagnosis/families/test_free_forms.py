@@ -109,7 +109,7 @@ def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out
     assert unseen_rmse(fitter, found) < 0.3 * unseen_rmse(fitter, bare)
 
 
-def test_families_are_told_around_a_law_far_from_the_noise_where_nearly_all_that_is_left_out_is_predicted():
+def test_free_forms_join_far_from_the_noise_where_nearly_all_that_is_left_out_is_predicted():
     """Two relaxations and a square root of time, no formula of the program's, around a law a little wrong."""
     rng, records = np.random.default_rng(0), []
     model = registry.build("models", "bouc-wen")

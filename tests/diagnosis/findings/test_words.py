@@ -51,6 +51,18 @@ def test_a_stand_in_alone_is_told_with_its_reason():
     assert said.endswith("input-lag (lugre does without) may stand in for the law.")
 
 
+def test_free_forms_far_from_the_noise_stand_in_for_the_law_and_what_is_beside_them_is_doubted():
+    beside, alone = (
+        replace(outcome_of(adopted, {}, rmse=0.17), doubt=Doubt(free=("lags-before",)))
+        for adopted in (("creep", "lags-before"), ("lags-before",))
+    )
+    assert beside.named == ("creep",)
+    assert headline(beside).startswith("The model may lack creep: ")
+    assert headline(beside).endswith("lags-before may stand in for the law.")
+    assert "what is named may stand in for that" in " ".join(warnings(beside))
+    assert headline(alone).startswith("No effect is named, as what helps may be the law's own: ")
+
+
 def test_a_law_that_comes_down_to_the_noise_is_not_said_to_fail():
     needs = {"dahl": ("input-lag",), "lugre": ()}
     far, near = (headline(outcome_of(("input-lag",), needs, rmse)) for rmse in (0.3, 0.1))
