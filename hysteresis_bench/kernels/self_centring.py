@@ -2,9 +2,7 @@
 
 With w = u - centre, x = w / bend and z the force of what yields over its strength,
 
-    F = up max(w, 0) + down min(w, 0) + corner x / (1 + |x|^m)^(1/m) + strength z,    the corner rounded as in [1].
-
-[1] M. Menegotto, P. E. Pinto, IABSE Reports 13 (1973) 15.
+    F = up max(w, 0) + down min(w, 0) + corner e(x) + strength z,    e as of `rounded_corner`.
 """
 
 from __future__ import annotations
@@ -14,25 +12,13 @@ from numba import njit
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.kernels.columns import given_out, taken_in
-from hysteresis_bench.kernels.elementary import base_2_logarithm, base_2_logarithm_to_2, power_of_2
 from hysteresis_bench.kernels.lanes import LANES
-
-LEAST = 1e-300
-"""Least of what is raised to m."""
+from hysteresis_bench.kernels.rounded_corner import bent
 
 # Rows of a group: the parameters as in `self_centring`, 1 over bend and over m; then u, z and F.
 CENTRE, BEND, SHARPNESS, UP, DOWN, CORNER, STRENGTH, STEEPNESS, ROOT = (row * LANES for row in range(9))
 NOW, Z, FORCE = (row * LANES for row in range(9, 12))
 ROWS = 12
-
-
-@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
-def _bent(x, m, root):  # type: ignore[no-untyped-def]
-    """x / (1 + |x|^m)^(1/m), from |x|^m or its inverse so that no power overflows."""
-    size = abs(x)
-    power = power_of_2(-m * abs(base_2_logarithm(max(size, LEAST))))
-    bent = min(size, 1.0) * power_of_2(-root * base_2_logarithm_to_2(1.0 + power))
-    return bent if x >= 0.0 else -bent
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -41,8 +27,8 @@ def forced_together(s: Array) -> None:
     for j in range(min(LANES, s.size & -LANES)):
         way, up, down = s[NOW + j] - s[CENTRE + j], s[UP + j], s[DOWN + j]
         elastic = way * (up if way >= 0.0 else down)
-        bent = _bent(way * s[STEEPNESS + j], s[SHARPNESS + j], s[ROOT + j])
-        s[FORCE + j] = s[STRENGTH + j] * s[Z + j] + elastic + s[CORNER + j] * bent
+        level = bent(way * s[STEEPNESS + j], s[SHARPNESS + j], s[ROOT + j])
+        s[FORCE + j] = s[STRENGTH + j] * s[Z + j] + elastic + s[CORNER + j] * level
 
 
 @njit(cache=True, error_model="numpy")

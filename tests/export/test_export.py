@@ -45,9 +45,9 @@ LAWS = {
     **{
         law: dict(registry.load("models", law).loaded.example.parameters)
         for law in (
-            "bouc-wen-generalized", "chaboche", "dahl", "energy-based", "ferroelectric", "folz-filiatrault",
-            "maxwell-slip", "pinching", "prandtl-ishlinskii", "prandtl-ishlinskii-modified", "preisach",
-            "self-centring",
+            "bouc-wen-generalized", "chaboche", "dahl", "energy-based", "ferroelectric", "flag-shaped",
+            "folz-filiatrault", "maxwell-slip", "pinching", "prandtl-ishlinskii", "prandtl-ishlinskii-modified",
+            "preisach", "self-centring",
         )
     },
     "oscillator": {**MASS, "alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},

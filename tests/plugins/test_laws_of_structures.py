@@ -1,9 +1,10 @@
-"""Laws of metals, timber and rocking walls on data of known truth."""
+"""Laws of metals, timber, superelastic bars and rocking walls on data of known truth."""
 
 import numpy as np
 import pytest
 
 from hysteresis_plugins.models.chaboche import Chaboche
+from hysteresis_plugins.models.flag_shaped import FlagShaped
 from hysteresis_plugins.models.folz_filiatrault import FolzFiliatrault
 from hysteresis_plugins.models.pinching import Pinching
 from hysteresis_plugins.models.self_centring import SelfCentring
@@ -22,6 +23,7 @@ TRUTHS = (
         {"u_y": 0.1, "r_1": 0.08, "f_I": 0.05, "gamma": 0.4, "r_4": 0.7, "beta": 1.05, "rho": 0.08, "corner": 0.3},
         {"F_0": 1.5},
     ),
+    (FlagShaped(), {"u_y": 0.2, "beta": 0.6, "m": 6.0, "centre": 0.02}, {"up": 1.0, "down": 0.8, "slope": 0.1}),
     (
         SelfCentring(),
         {"u_r": 0.2, "m": 3.0, "centre": 0.02, "u_y": 0.1, "i": 1.0},

@@ -1,6 +1,6 @@
 """Self-centring: an elastic curve that bends once on either side, beside friction or yielding.
 
-[1] C. Christopoulos, A. Filiatrault, B. Folz, Earthquake Eng. Struct. Dyn. 31 (2002) 1131: the flag-shaped loop.
+[1] C. Christopoulos, A. Filiatrault, B. Folz, Earthquake Eng. Struct. Dyn. 31 (2002) 1131: such structures.
 [2] M. Menegotto, P. E. Pinto, IABSE Reports 13 (1973) 15: the rounded corner.
 [3] P. R. Dahl, A solid friction model, Aerospace Corporation, TOR-158(3107-18) (1968).
 
@@ -27,7 +27,7 @@ STRONGEST = 5.0
 
 @dataclass(frozen=True)
 class SelfCentring(Model):
-    """Self-centring: a flag-shaped loop, as of a rocking wall that is held down by tendons beside parts that yield.
+    """Self-centring: as a rocking wall that is held down by tendons, beside parts that yield wherever it stands.
 
     F = up max(w, 0) + down min(w, 0) + F_r e(w / u_r) + F_y z, w = u - centre, e(x) = x / (1 + |x|^m)^(1/m) [1, 2],
     dz/du = |1 - z sgn(u')|^i / u_y [3]. Rate-independent, passive, linear in both slopes, F_r and F_y; its loop runs
