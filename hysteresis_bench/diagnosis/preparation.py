@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.evidence.view import View, views_of
 from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import fitter_of
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.fit.checks.settled_periods import said_of, settled_periods
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
 from hysteresis_bench.fit.settling import CLOSED, FIRST_REPEATS, MOST_REPEATS, gap_after, passed
 from hysteresis_bench.signals import Dataset, Record
 
@@ -61,7 +61,8 @@ def prepare(dataset: Dataset, question: Question) -> Prepared:
     asked = question.options.settle
     passes = passes_to_close(model, seen, question) if settled_periods(seen.fitted, asked) else 0
     ready, how = with_held_out(seen.map(lambda record: passed(record, passes)))
-    return Prepared(model, ready, how, views_of(ready.fitted), passes, said_of(seen.fitted, asked) if passes else ())
+    told = (SAID,) if passes and asked is None else unsettled(seen.fitted, asked)
+    return Prepared(model, ready, how, views_of(ready.fitted), passes, told)
 
 
 def passes_to_close(model: Model, dataset: Dataset, question: Question) -> int:

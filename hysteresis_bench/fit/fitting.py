@@ -23,7 +23,7 @@ from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
 from hysteresis_bench.fit.checks.faulty_records import without_faults
-from hysteresis_bench.fit.checks.settled_periods import said_of, settled_periods
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
 from hysteresis_bench.fit.least_squares import not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
@@ -148,7 +148,7 @@ def fit_records(
         raise UserError("fit", faults)
     seen = dataset.map(preparation)
     _check(system, seen, bool(options.settle))
-    told = said_of(seen.fitted, options.settle)
+    told, off = () if options.settle is not None else (SAID,), unsettled(seen.fitted, options.settle)
     options = replace(options, settle=settled_periods(seen.fitted, options.settle))
     space = _space(system, seen.fitted, bounds or {})
     best = _searched(system, space, seen, options)
@@ -175,6 +175,7 @@ def fit_records(
         agrees,
         (
             *advice_with(system.model, effects, seen.fitted),
+            *off,
             *not_closed(best.gap, best.repeats),
             *at_edges(parameters[~parameters["name"].isin(weights)]),
             *analysis.sentences(),

@@ -9,7 +9,7 @@ import pytest
 from hysteresis_bench import compare, diagnose, fit, registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
-from hysteresis_bench.fit.checks.settled_periods import SAID, said_of, settled_periods
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
 from hysteresis_bench.fit.fitting import FitOptions
 from hysteresis_bench.fit.settling import passed
 from hysteresis_bench.signals import Dataset, Record
@@ -86,12 +86,23 @@ def test_one_record_that_is_none_leaves_all_at_rest_unless_asked():
 def test_an_output_that_does_not_come_back_is_told_where_loops_are_to_settle(law):
     loop = period(law, "cosine", 0.003, settled=True, turn=0.25)
     moved = replace(loop, output=loop.output + 0.1 * np.ptp(loop.output) * PHASE, name="moved")
-    assert said_of([loop], asked=True) == ()
-    (said,) = said_of([loop, moved], asked=True)
+    assert unsettled([loop], asked=True) == ()
+    (said,) = unsettled([loop, moved], asked=True)
     assert loop.name not in said
     share = float(said.split("moved (")[1].split(" %")[0])
     assert share == pytest.approx(10.0, abs=2.0)
-    assert said_of([moved], asked=None) == (SAID,)
+    assert unsettled([moved], asked=None) == unsettled([moved], asked=False) == ()
+
+
+def test_fit_compare_and_diagnose_say_so():
+    loop = period("dahl", "cosine", 0.003, settled=True)
+    moved = Dataset((replace(loop, output=loop.output + 0.1 * np.ptp(loop.output) * PHASE),))
+    (said,) = unsettled(moved.records, asked=True)
+    options = DiagnosisOptions(jobs=1, settle=True, laws=("dahl",))
+    assert said in fit(moved, "dahl", options=FitOptions(budget=600, settle=True)).warnings
+    assert said in compare(moved, options.laws, options=options).words
+    for model in ("dahl", None):
+        assert " ".join(diagnose(moved, model, options=options).warnings).count(said) == 1
 
 
 def test_a_settled_period_is_fitted_and_predicted_as_one():

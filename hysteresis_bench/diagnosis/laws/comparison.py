@@ -30,7 +30,7 @@ from hysteresis_bench.diagnosis.structure.structure import Structure, structure
 from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.checks.asked import around_faults
 from hysteresis_bench.fit.checks.faulty_records import without_faults
-from hysteresis_bench.fit.checks.settled_periods import said_of, settled_periods
+from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.settling import FIRST_REPEATS, open_loops
 from hysteresis_bench.fit.unseen.likeness import judged
@@ -130,10 +130,12 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     better = {law.model: law for law in moved}
     rows = [*(_row(law, better.get(law.model)) for law in laws), _baseline_row(plain, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
-    told = (*said_of(ready.fitted, options.settle), PASSED) if settles else ()
+    told = ((SAID,) if options.settle is None else ()) + (PASSED,) if settles else ()
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
         words += " On what was held out it does worse than the polynomial: do not believe it there."
+    if not effects_follow:  # a diagnosis says so itself
+        words = " ".join((words, *unsettled(ready.fitted, options.settle)))
     notes = (*_notes(seen, options), *told)
     ranked = ranking([better.get(law.model, law) for law in laws], REACHED * floor, out.blocks, like=out.like)
     if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:

@@ -55,20 +55,18 @@ def settled_periods(records: Sequence[Record], asked: bool | None = None) -> boo
     return asked if asked is not None else bool(records) and all(map(_is_one, records))
 
 
-def said_of(records: Sequence[Record], asked: bool | None) -> tuple[str, ...]:
-    """Of loops that are passed: that the records say so or, where it was asked, which of them say otherwise.
+def unsettled(records: Sequence[Record], asked: bool | None) -> tuple[str, ...]:
+    """A sentence on the records that are to be passed as loops, as `asked`, and whose outputs do not come back.
 
-    records, asked : as of `settled_periods`
+    records : with outputs, as the model sees them, not repeated
     """
-    if asked is None:
-        return (SAID,)
     gaps = {
         record.name: abs(float(record.output[-1] - record.output[0])) / float(np.ptp(record.output))
         for record in records
         if record.output is not None and is_closed(record) and not _comes_back(record.input, record.output)
     }
     off = ", ".join(f"{name} ({100.0 * gap:.2g} %)" for name, gap in gaps.items() if gap > 0.0)
-    return (OPEN.format(off),) if off else ()
+    return (OPEN.format(off),) if asked and off else ()
 
 
 def _is_one(record: Record) -> bool:
