@@ -121,7 +121,9 @@ def _how() -> Bullets:
                 "when those of all devices were known; so were the laws of metals, timber and rocking walls added, and "
                 "the cells of the smooth density made finer; that neither parameters weigh nor a smoother density is "
                 "taken where the inputs held out are like those left out whole was tried on made data, too, but after "
-                "it was seen that the films of PZT and FeFET had better laws than the chosen ones"
+                "it was seen that the films of PZT and FeFET had better laws than the chosen ones; the loops of the "
+                "FeFET were passed as settled, until it was seen that their outputs do not come back, when its error "
+                "was known"
             ),
             sentence(
                 "of every device the laws of its own field and general ones were compared, not all registered ones; "
