@@ -39,8 +39,8 @@ class FlagShaped(Model):
         Parameter("beta", 0.0, 1.0, meaning="share of the bend's force that is gone on the way back"),
         Parameter("m", 1.0, 100.0, scaling="log", meaning="sharpness of the bends", positive=True),
         Parameter("centre", -0.2, 0.2, "{input}", meaning="where it comes to rest"),
-        Parameter("up", 0.0, 5.0, "{output}/{input}", meaning="stiffness above the centre, over slope"),
-        Parameter("down", 0.0, 5.0, "{output}/{input}", meaning="stiffness below the centre, over slope"),
+        Parameter("up", 0.0, 5.0, "{output}/{input}", meaning="added to slope above the centre, up to the bend"),
+        Parameter("down", 0.0, 5.0, "{output}/{input}", meaning="added to slope below the centre, up to the bend"),
         Parameter("slope", -5.0, 5.0, "{output}/{input}", meaning="stiffness beyond the bend"),
     )
     linear = ("up", "down", "slope")
