@@ -62,8 +62,8 @@ LEGIBLE = 0.9
 """Pixels a point below which a figure is scrolled, not made smaller: 5.5 inches still fit a phone of 390 pixels."""
 
 
-WIDE = 40
-"""Points: a column of numbers beside rows."""
+WIDE, CHARACTER = 40, 5.5
+"""Points: a column of numbers beside rows, at least, and what a character of it takes."""
 
 
 @dataclass(frozen=True)
@@ -137,10 +137,12 @@ def legend(axes: Any, columns: int = 2) -> None:
 
 def numbers_beside(axes: Any, columns: Sequence[tuple[str, str, Mapping[int, str]]]) -> None:
     """Columns of numbers to the right of rows 0, 1, ... that run downwards; columns : heading, colour, text by row"""
-    for place, (heading, colour, by_row) in enumerate(columns):
+    right = 5.0
+    for heading, colour, by_row in columns:
         for row, text in ((-0.7, heading), *by_row.items()):
             at = {"xycoords": axes.get_yaxis_transform(), "textcoords": "offset points", "annotation_clip": False}
-            axes.annotate(text, (1.0, row), (5 + WIDE * place, 0), color=colour, va="center", fontsize=8, **at)
+            axes.annotate(text, (1.0, row), (right, 0), color=colour, va="center", fontsize=8, **at)
+        right += max(WIDE, CHARACTER * max(map(len, by_row.values()), default=0))
 
 
 def spread_labels(positions: Sequence[float], gap: float, *, low: float = 0.0, high: float = 1.0) -> list[float]:
