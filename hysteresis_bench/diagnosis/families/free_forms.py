@@ -25,8 +25,9 @@ of them follow any law's fault. Of 656 cases whose effects had other formulas th
 five claims at most, the family was right with one form in 60, with two in 6, with more in none."""
 
 REMAINING = 0.1
-"""Share of the excess of the mean square over the noise's, on records left out, up to which next to nothing remains. On
-a measured ferroelectric gate stack 0.04 did, as in a made case, so that half of it or twice changes neither."""
+"""Share of the excess of the mean square over the noise's, on records left out, up to which next to nothing remains. In
+a made case 0.04 does, as on a measured ferroelectric gate stack whose loops had been passed as settled and were not:
+half of it or twice changes neither. On the latter the free forms stood in for that, so that they are no names."""
 
 
 def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:
@@ -66,7 +67,7 @@ def _counted(selection: Selection, names: tuple[str, ...], system: Hypothesis) -
 
 def _foretelling(selection: Selection, named: Hypothesis, others: list[Hypothesis]) -> Hypothesis:
     """Far from the noise, a system that leaves next to nothing of what the named one does where whole records are left
-    out. What follows a law's own fault does not: on other records the fault is another one."""
+    out. What follows a law's own fault seldom does: on other records the fault is another one."""
     fitter = selection.fitter
     if fits(selection, named) or not fitter.excitations.inner:
         return named

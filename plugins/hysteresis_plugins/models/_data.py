@@ -29,6 +29,14 @@ def input_span(records: Sequence[Record]) -> float:
     return max(float(np.ptp(record.input)) for record in records) or 1.0
 
 
+def in_the_middle(centre: Parameter, records: Sequence[Record]) -> Parameter:
+    """Where a structure comes to rest: within the middle fifth of the inputs, by the largest span of one record."""
+    low = min(float(np.min(record.input)) for record in records)
+    high = max(float(np.max(record.input)) for record in records)
+    middle, span = 0.5 * (low + high), input_span(records)
+    return centre.within(middle - 0.1 * span, middle + 0.1 * span)
+
+
 def path(records: Sequence[Record]) -> float:
     """Longest path of the input in one record, 1 where it never moves."""
     return max(float(np.sum(np.abs(np.diff(record.input)))) for record in records) or 1.0

@@ -19,7 +19,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.models._data import STEEPEST, input_span, offset, steepness
+from hysteresis_plugins.models._data import STEEPEST, in_the_middle, input_span, offset, steepness
 
 
 @dataclass(frozen=True)
@@ -63,12 +63,9 @@ class FlagShaped(Model):
         """The bend from a thousandth of the span of the input to all of it, the centre in its middle fifth."""
         boxes = {q.name: q for q in self.parameters}
         span, most = input_span(records), STEEPEST * steepness(records)
-        low = min(float(np.min(record.input)) for record in records)
-        high = max(float(np.max(record.input)) for record in records)
-        middle = 0.5 * (low + high)
         inside = {
             "u_y": boxes["u_y"].within(1e-3 * span, span),
-            "centre": boxes["centre"].within(middle - 0.1 * span, middle + 0.1 * span),
+            "centre": in_the_middle(boxes["centre"], records),
             "up": boxes["up"].within(0.0, most),
             "down": boxes["down"].within(0.0, most),
             "slope": boxes["slope"].within(-most, most),

@@ -19,7 +19,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
-from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, steepness
+from hysteresis_plugins.models._data import STEEPEST, in_the_middle, input_span, offset, output_span, steepness
 
 STRONGEST = 5.0
 """Largest forces, in ranges of the output."""
@@ -80,12 +80,9 @@ class SelfCentring(Model):
         centre in its middle fifth; forces up to five times the range of the output."""
         boxes = {q.name: q for q in self.parameters}
         span, most, forces = input_span(records), STEEPEST * steepness(records), STRONGEST * output_span(records)
-        low = min(float(np.min(record.input)) for record in records)
-        high = max(float(np.max(record.input)) for record in records)
-        middle = 0.5 * (low + high)
         inside = {
             "u_r": boxes["u_r"].within(1e-3 * span, span),
-            "centre": boxes["centre"].within(middle - 0.1 * span, middle + 0.1 * span),
+            "centre": in_the_middle(boxes["centre"], records),
             "u_y": boxes["u_y"].within(1e-3 * span, span),
             "up": boxes["up"].within(-most, most),
             "down": boxes["down"].within(-most, most),
