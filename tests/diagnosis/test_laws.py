@@ -171,6 +171,24 @@ def test_a_law_of_more_parameters_does_not_take_the_place_of_one_with_an_effect(
     assert found.ranked[0] == "bouc-wen"
 
 
+@pytest.mark.parametrize(("response", "lone"), [(bent, False), (growing, False), (lagged, True)])
+def test_what_is_not_asked_for_what_it_predicts_would_not_have_predicted_best(response, lone):
+    """Of several effects that one is found which is best by itself."""
+    made = records(response)[1:2] if lone else records(response)
+    laws = Passing(Dataset(made), settles=False, split=False).begun
+    law = laws.law("bouc-wen")
+
+    def asked(stack: Stack) -> list[str]:
+        return [*curves(stack), *linear_dynamics(stack)]
+
+    each = asked(laws.fitter("bouc-wen", laws.records).stack)
+    alone = [laws.with_any(law, law, lambda _, name=name: [name]) for name in each]
+    best = min(alone, key=lambda one: one.rmse)
+    found = laws.with_any(law, law, asked)
+    assert best.found.names != law.found.names
+    assert (found.found.names, found.rmse) == (best.found.names, best.rmse)
+
+
 def test_what_laws_are_ranked_with_are_effects_that_no_relaxation_makes_up():
     stack = Stack(registry.build("models", "dahl"), records(BOUC_WEN))
     swinging = {"resonance", "second-order-lag", "second-order-input-lag", "droop"}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -115,24 +115,30 @@ class Laws:
         fitter = self.fitter(law.model, self.records)
         best = law
         for names in (drifts(fitter.stack), linear_dynamics(fitter.stack)):
-            best = min([best, *self._moved(fitter, best, names)], key=lambda one: one.rmse)
+            best = self._moved(fitter, best, best, names)
         return best
 
     def with_any(self, law: Law, known: Law, asked: Callable[[Stack], Sequence[str]]) -> Law:
         """What is `known` of a law, or the law alone with one of the effects that are asked of its stack, where that
         predicts better."""
         fitter = self.fitter(law.model, self.records)
-        return min([known, *self._moved(fitter, law, asked(fitter.stack))], key=lambda one: one.rmse)
+        return self._moved(fitter, law, known, asked(fitter.stack))
 
-    def _moved(self, fitter: Fitter, law: Law, names: Sequence[str]) -> Iterator[Law]:
-        """With each of these effects more."""
+    def _moved(self, fitter: Fitter, law: Law, known: Law, names: Sequence[str]) -> Law:
+        """What is `known` of a law, or the law with that one of these effects more that predicts best.
+
+        A least-squares fit to all parts leaves no more of each than one to the other parts does. So what leaves more of
+        what it was fitted to than the best so far leaves of what was left out cannot be better, and is not asked."""
         if law.found is None:
-            return
-        for name in names:
-            found = fitter.extended(law.found, name)
-            problem = fitter.stack.problem(found.names)
-            unseen, ahead = self._left_out(problem, found)
-            yield replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)
+            return known
+        best, last = known, last_part(self.records)
+        for found in sorted((fitter.extended(law.found, name) for name in names), key=lambda one: one.rmse):
+            if both(found.residuals, found.residuals[last]) < best.rmse:
+                problem = fitter.stack.problem(found.names)
+                unseen, ahead = self._left_out(problem, found)
+                moved = replace(law, unseen=unseen, ahead=ahead, parameters=problem.space.dimension, found=found)
+                best = min(best, moved, key=lambda one: one.rmse)
+        return best
 
     def _left_out(self, problem: Problem, found: Hypothesis) -> tuple[Array, Array]:
         """Errors of what is left out, and of a lone record's last part, as of `Law`."""
