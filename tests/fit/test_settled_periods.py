@@ -94,6 +94,13 @@ def test_an_output_that_does_not_come_back_is_told_where_loops_are_to_settle(law
     assert unsettled([moved], asked=None) == unsettled([moved], asked=False) == ()
 
 
+@pytest.mark.filterwarnings("error")
+def test_what_cannot_tell_says_nothing_of_an_output_that_does_not_come_back():
+    one = Record(PHASE[:1], PHASE[:1], PHASE[:1])
+    flat = Record(PHASE, np.sin(2 * np.pi * PHASE), np.ones(PHASE.size))
+    assert unsettled([one, flat], asked=True) == unsettled([one, flat], asked=None) == ()
+
+
 def test_fit_compare_and_diagnose_say_so():
     loop = period("dahl", "cosine", 0.003, settled=True)
     moved = Dataset((replace(loop, output=loop.output + 0.1 * np.ptp(loop.output) * PHASE),))

@@ -60,13 +60,18 @@ def unsettled(records: Sequence[Record], asked: bool | None) -> tuple[str, ...]:
 
     records : with outputs, as the model sees them, not repeated
     """
-    gaps = {
-        record.name: abs(float(record.output[-1] - record.output[0])) / float(np.ptp(record.output))
-        for record in records
-        if record.output is not None and is_closed(record) and not _comes_back(record.input, record.output)
-    }
-    off = ", ".join(f"{name} ({100.0 * gap:.2g} %)" for name, gap in gaps.items() if gap > 0.0)
-    return (OPEN.format(off),) if asked and off else ()
+    if not asked:
+        return ()
+    off = [f"{record.name} ({100.0 * gap:.2g} %)" for record in records if (gap := _gap(record)) > 0.0]
+    return (OPEN.format(", ".join(off)),) if off else ()
+
+
+def _gap(record: Record) -> float:
+    """How far from its beginning the output of a loop ends, a share of its range; 0 where nothing says that it does."""
+    y = record.output
+    if y is None or y.size < FEWEST or not is_closed(record) or _comes_back(record.input, y):
+        return 0.0
+    return abs(float(y[-1] - y[0])) / (float(np.ptp(y)) or 1.0)
 
 
 def _is_one(record: Record) -> bool:
