@@ -24,7 +24,7 @@ from hysteresis_bench import diagnose
 from hysteresis_bench.errors import UserError
 
 LATE = 600
-"""Seconds after which a diagnosis is given up: the ten minutes that the page tells of."""
+"""Seconds after which a diagnosis is given up; the page names those that were given more."""
 
 
 def diagnosed(device: Device) -> dict[str, object]:
