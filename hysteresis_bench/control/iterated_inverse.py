@@ -37,7 +37,7 @@ STEEPER = 1.5
 """Minor loops may be steeper than the ramp."""
 DECADES = range(-12, 13)
 """Of the input, in which the ramp is sought that spans the wanted range."""
-STATIC = ("law", "curve of the input", "curve of the output")
+STATIC = ("law", "curve beside the law", "curve of the input", "curve of the output")
 """Families of effects that know no time: they are inverted with the law."""
 
 

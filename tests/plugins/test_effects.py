@@ -352,6 +352,29 @@ def test_rayleigh_s_remanence_grows_with_the_square_of_the_amplitude():
         np.testing.assert_allclose(y[[200, 250]], [-remanence, remanence], atol=1e-12)
 
 
+def test_a_cubic_of_the_input_acts_beside_the_law():
+    y = applied("cubic-stiffness", record().signal, cubic=-0.07)
+    np.testing.assert_allclose(y, 2.0 * DRIVE - 0.07 * DRIVE**3, rtol=1e-13)
+
+
+def test_a_parallel_curve_comes_near_every_spring_but_its_straight_part():
+    """A cubic less the straight line that makes its ends alike, at all knots, and nearly between them."""
+    effect = registry.build("effects", "parallel-curve")
+    low, high = float(DRIVE.min()), float(DRIVE.max())
+    knots = np.linspace(low, high, 9)
+    mid = 0.5 * (low + high)
+
+    def added(u: np.ndarray) -> np.ndarray:
+        z = (u - mid) / (high - mid)
+        return z**3 - z
+
+    bends = {f"bend{k}": float(added(knots[k])) for k in range(8) if k != 4}
+    y = applied("parallel-curve", record().signal, lowest=low, highest=high, **bends) - 2.0 * DRIVE
+    np.testing.assert_allclose(y, added(DRIVE), atol=0.03)
+    names = [p.name for p in effect.parameters]
+    assert names == ["lowest", "highest", *bends]
+
+
 def test_record_drift_takes_a_line_from_every_record_and_leaves_its_mean():
     effect = registry.build("effects", "record-drift")
     slow = record(output=2.0 * DRIVE + 0.3 + 0.7 * (TIME - 2.0))

@@ -26,7 +26,7 @@ def place(name: str, effect: type[Effect]) -> tuple[int, bool, int, str]:
 
 
 def is_curve(effect: Effect | type[Effect]) -> bool:
-    """Is its family the curve of the input, or of the output?"""
+    """Is its family the curve of the input, of the output, or beside the law?"""
     return effect.family.startswith("curve")
 
 

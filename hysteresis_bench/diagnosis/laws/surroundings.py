@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.free_forms import FreeForm
 
 SIDES = ("dynamics before the law", "dynamics after the law")
-SHAPES = ("curve of the input", "curve of the output", "law")
+SHAPES = ("curve of the input", "curve of the output", "curve beside the law", "law")
 """Families."""
 
 

@@ -6,6 +6,8 @@ from hysteresis_bench.diagnosis.hypotheses.systems import place
 CHAIN = [
     "eddy-current",
     "rayleigh-hysteresis",
+    "cubic-stiffness",
+    "parallel-curve",
     "backlash",
     "play-bank",
     "asymmetry",
