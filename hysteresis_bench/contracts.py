@@ -78,7 +78,7 @@ class Model(ABC):
     properties: ClassVar[tuple[Property, ...]] = ()
     """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
     senses: ClassVar[tuple[int, ...]] = (-1, 1)
-    """Of its loops, output over input: 1 anticlockwise, -1 clockwise."""
+    """Of its loops, output over input: 1 where they can run anticlockwise, -1 clockwise."""
     example: ClassVar[Example | None] = None  # with what it makes data, where it may be asked to
 
     @abstractmethod
@@ -222,8 +222,7 @@ class Objective(Protocol):
 class Optimizer(ABC):
     """A search. Its settings are frozen dataclass fields."""
 
-    anytime: ClassVar[bool] = True
-    """False where the schedule needs to know the budget."""
+    anytime: ClassVar[bool] = True  # False where the schedule needs to know the budget
 
     @abstractmethod
     def search(self, objective: Objective, start: Start, rng: Generator) -> None:
