@@ -106,7 +106,9 @@ EFFECTS = {
     "lags-before": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "leakage-curve": {"largest": 3.0, **{f"current{k}": 0.5 / k for k in range(1, 8)}},
     "output-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
-    "parallel-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
+    "parallel-curve": {
+        "lowest": -2.5, "highest": 2.0, **{f"bend{k}": 0.1 * (-1) ** k for k in range(10) if k != 5},
+    },
     "play-bank": {"reach": 1.5, **{f"weight{k}": 0.05 for k in range(1, 11)}},
     "record-wave": {"duration": 1.6, "frequency": 7.0, **{f"amplitude{k}": 0.1 * k for k in range(5)}},
     "zero-with-time": {"duration": 1.6, **{f"zero{k}": 0.1 * k for k in range(1, 7)}},

@@ -14,14 +14,15 @@ from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import motionless, output_span
-from hysteresis_plugins.effects.free._spline import POINTS, add, bent, extremes, narrow
+from hysteresis_plugins.effects.free._spline import POINTS, Spline, add, extremes, narrow
 
-BEND = bent("bend")
+PIECES = 10
+BEND = Spline("bend", tuple(k / PIECES for k in range(PIECES + 1)), PIECES // 2, tied=True)
 ORDINATES = BEND.parameters("{output}", "what is added")
 WIDER = 0.1
 """Share of the range of the input by which the knots go further, to either side: a natural spline is straight at its
-ends, where a spring bends most. A cubic is followed to 1e-4 of its range (RMS), and to 2e-3 with none of it or 1e-5
-with twice; a corner at half the range to 0.010, 0.005 and 0.013."""
+ends, where a spring bends most. The fifth power is followed to 1e-4 of its range (RMS), a corner at half the range to
+5e-3; with none of it to 3e-3 and 7e-3, with twice to 2e-4 and 6e-3."""
 
 
 @dataclass(frozen=True)
