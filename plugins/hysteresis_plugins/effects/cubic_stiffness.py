@@ -54,7 +54,7 @@ class CubicStiffness(Effect):
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_cubic,)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_fifth_power, _bumper)
     parameters = (
-        Parameter("cubic", -1.0, 1.0, "{output}/{input}^3", null=0.0, meaning="stiffness that grows with the square"),
+        Parameter("cubic", -1.0, 1.0, "{output}/{input}^3", null=0.0, meaning="restoring force over the cubed input"),
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
