@@ -52,8 +52,8 @@ def _answer(rows: pd.DataFrame, plain: pd.Series, missing: list[str]) -> Bullets
         told.append(f"More than ten minutes were given to these, in minutes, on one processor: {listed(long)}.")
     told.append(
         "The loops of the FeFET were passed as settled, until it was seen that their outputs end 16 % of the range "
-        "away from where they began, and what is predicted of the record held out without that. They begin in mid- "
-        "loop, after a pulse that was not recorded: of every record what comes before the input has passed both "
+        "away from where they began, and what is predicted of the record held out without that. They begin in "
+        "mid-loop, after a pulse that was not recorded: of every record what comes before the input has passed both "
         "ends of its range, at most half, is simulated and not scored, before and after, on what was fitted and on "
         "what was held out. The diagnosis reads the S355 coupon so by itself, whose cycles grow."
     )
