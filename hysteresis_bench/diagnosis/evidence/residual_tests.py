@@ -17,9 +17,10 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data.units import frequency_in
+from hysteresis_bench.data.units import frequency_in, rounded
 from hysteresis_bench.diagnosis.evidence import autocorrelated, covariates, spectrum
 from hysteresis_bench.diagnosis.evidence.noise import period
+from hysteresis_bench.diagnosis.evidence.ripple import ripple
 from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.statistics import LEVEL, holm
 
@@ -52,7 +53,7 @@ class ResidualTest:
 def residual_tests(views: Sequence[View], residuals: Sequence[Array]) -> list[ResidualTest]:
     """Every test of every record, and of all together where there are several.
 
-    residuals : (scored samples,) a record, of either sign
+    residuals : (scored samples,) a record, measured minus simulated
     """
     found: list[ResidualTest] = []
     for view, residual in zip(views, residuals, strict=True):
@@ -83,6 +84,14 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
     for kind, columns, nuisance, words in _dependences(views):
         answer = autocorrelated.f_test(residuals, columns, nuisance)
         yield test(kind, answer.statistic, answer.p, answer.share, words)
+    for kind, courses in (
+        ("input", [view.u for view in views]),
+        ("output", [view.y - part for view, part in zip(views, residuals, strict=True)]),
+    ):
+        waves = ripple(residuals, courses)
+        if waves is not None:
+            words = f"repeats itself {rounded(waves.cycles)} times over the range of the {kind}"
+            yield test(f"ripple-{kind}", waves.test.statistic, waves.test.p, waves.test.share, words)
     for kind, columns, words in _scatters(views):
         answer = autocorrelated.f_test(_sizes(residuals), columns)
         yield test(kind, answer.statistic, answer.p, answer.share, words)

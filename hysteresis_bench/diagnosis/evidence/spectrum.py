@@ -51,7 +51,7 @@ def line(residual: Array, step: float) -> Line:
     single = float(fdtrc(2.0, 2.0 * BACKGROUND, ratio[peak]))  # a median of exponentials is worth half its number
     near = slice(max(0, peak - 1), peak + 2)
     share = float(power[near].sum() / max(power.sum(), 1e-300))
-    return Line(float(ratio[peak]), _largest_of(power.size, single), share, float(bins[peak] / (e.size * step)))
+    return Line(float(ratio[peak]), largest_of(power.size, single), share, float(bins[peak] / (e.size * step)))
 
 
 def coherence(residual: Array, u: Array) -> tuple[float, float, float]:
@@ -68,11 +68,11 @@ def coherence(residual: Array, u: Array) -> tuple[float, float, float]:
     cross = np.abs(np.sum(e_hat * np.conj(x_hat), axis=0)) ** 2
     squared = np.where(driven, cross / np.maximum(driving * power, 1e-300), 0.0)
     top = float(min(squared.max(), 1.0))
-    p = _largest_of(int(np.count_nonzero(driven)), (1.0 - top) ** (SEGMENTS - 1))
+    p = largest_of(int(np.count_nonzero(driven)), (1.0 - top) ** (SEGMENTS - 1))
     beyond_chance = np.maximum(squared - 1.0 / SEGMENTS, 0.0)
     return top, p, float(np.sum(beyond_chance * power) / max(power.sum(), 1e-300))
 
 
-def _largest_of(count: int, p: float) -> float:
+def largest_of(count: int, p: float) -> float:
     """p of the largest of `count` independent values, from that of one."""
     return float(-np.expm1(count * np.log1p(-min(p, 1.0 - 1e-15))))

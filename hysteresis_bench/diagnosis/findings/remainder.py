@@ -47,6 +47,7 @@ class Remainder:
     heavy : nothing is left but noise of heavy tails: not correlated, without a cause or a term either, and most samples
         are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
+    repeating : a sentence, where it repeats itself along the input or the output
     """
 
     equation: Equation | None
@@ -54,6 +55,7 @@ class Remainder:
     slow: bool
     heavy: bool
     louder: bool
+    repeating: str = ""
 
     @property
     def noise(self) -> bool:
@@ -86,7 +88,9 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     noise = not (caused or equation.terms or louder)
     slow = noise and not white and _hidden(residuals, len(tests)) <= WRONG * floor
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
-    return Remainder(equation, not (slow or heavy), slow, heavy, louder)
+    ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
+    repeating = f"{ripple.words.capitalize()}." if ripple else ""
+    return Remainder(equation, not (slow or heavy), slow, heavy, louder, repeating)
 
 
 def _hidden(residuals: Sequence[Array], tests: int) -> float:
