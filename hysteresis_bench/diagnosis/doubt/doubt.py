@@ -6,10 +6,11 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.carrying import carrying
 from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
-from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
+from hysteresis_bench.diagnosis.doubt.other_laws import OFFSET, Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.families.finding import forms_of
@@ -91,7 +92,9 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         wrong = found.final.rmse > WRONG * floor or final.rmse > MISFIT * floor
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
-        cause = law_as_cause(found, final, [one for one in screened if one.model in laws], few, workers)
+        level = _level(found)
+        own = replace(final, errors=level.thin.unseen(level.final))
+        cause = law_as_cause(level, own, [one for one in screened if one.model in laws], few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):
             return replace(known, cause=cause, untested=untested)
         (own,) = workers.map([("needy", asked)])
@@ -131,6 +134,12 @@ def in_question(found: Found) -> tuple[str, ...]:
     names |= {one.chosen for one in found.selection.rounds if one.chosen}
     names |= {rival for rivals in found.rivals.values() for rival in rivals}
     return tuple(sorted(names - {*forms_of(tuple(names))}))
+
+
+def _level(found: Found) -> Found:
+    """With a constant a record, as every other law has: whatever lifts a record is no other law's."""
+    names = (found.final.names - {*registry.OFFSETS}) | OFFSET
+    return replace(found, final=found.thin.followed(replace(found.final, names=names)))
 
 
 def _values(found: Found) -> dict[str, float]:

@@ -1,7 +1,9 @@
 """Where the law is wrong, another law is told as the cause, and what stood in for it is not named."""
 
 import json
+from dataclasses import replace
 
+import numpy as np
 import pytest
 
 from hysteresis_bench import measure
@@ -61,6 +63,20 @@ def test_what_another_law_explains_is_no_slow_noise(ask_only):
     assert found.better_law.model == "jiles-atherton"
     assert found.better_law.unseen < 1.1 * found.floor
     assert not any("slow noise" in one for one in found.warnings)
+
+
+def test_what_lifts_records_is_no_other_laws(ask_only):
+    """Every other law has a constant a record; the one that was asked about needs none, as the tests have it."""
+    ask_only(["bouc-wen", "dahl"])
+    data = data_of("bouc-wen")
+    wandering = []
+    for k, record in enumerate(data.records):
+        steps = np.random.default_rng(70 + k).standard_normal(record.output.size)
+        walk = 0.03 * np.ptp(record.output) * np.cumsum(steps) / np.sqrt(steps.size)
+        wandering.append(replace(record, output=record.output + walk))
+    found = diagnose(replace(data, records=tuple(wandering)), Question("bouc-wen", options=OPTIONS))
+    assert found.better_law is None
+    assert found.verdict == "unexplained-residual"
 
 
 @pytest.fixture(scope="module")
