@@ -25,7 +25,11 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
         found=Of(follows=True, evidence=evidence, final=final, full=full, given_up=more.get("given_up")),
         ties=(),
         left=Of(
-            matters=not slow and rmse > 0.11, slow=slow, noise=slow, louder=(held_out or 0.0) > 1.25 * max(rmse, 0.1)
+            matters=not slow and rmse > 0.11,
+            slow=slow,
+            noise=slow,
+            louder=(held_out or 0.0) > 1.25 * max(rmse, 0.1),
+            repeating=more.get("repeating", ""),
         ),
         units={"output": "um"},
         model="dahl",
@@ -36,6 +40,11 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
 
 def replace_held_out(stage, rmse):
     return Of(**{**vars(stage), "held_out": Of(rmse=rmse)})
+
+
+def test_what_repeats_itself_is_told_last():
+    sentence = "The residual repeats itself 12 times over the range of the input, p = 0."
+    assert headline(outcome_of((), {}, rmse=0.5, repeating=sentence)).endswith(f"explains. {sentence}")
 
 
 def test_stand_ins_are_told_together_where_the_reason_is_one():
