@@ -29,6 +29,7 @@ Acts: TypeAlias = Literal["law", "input", "output", "added"]
 Family: TypeAlias = Literal[
     "law",
     "curve beside the law",
+    "damping beside the law",
     "curve of the input",
     "dynamics before the law",
     "curve of the output",
@@ -77,8 +78,7 @@ class Model(ABC):
     the model, `simulate` finds its parameters as p.eddy_current, a namedtuple like p; else p has no such field."""
     properties: ClassVar[tuple[Property, ...]] = ()
     """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
-    senses: ClassVar[tuple[int, ...]] = (-1, 1)
-    """Of its loops, output over input: 1 where they can run anticlockwise, -1 clockwise."""
+    senses: ClassVar[tuple[int, ...]] = (-1, 1)  # of its loops, output over input: 1 anticlockwise, -1 clockwise
     example: ClassVar[Example | None] = None  # with what it makes data, where it may be asked to
 
     @abstractmethod

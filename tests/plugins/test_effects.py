@@ -375,6 +375,39 @@ def test_a_parallel_curve_comes_near_every_spring_but_its_straight_part():
     assert names == ["lowest", "highest", *bends]
 
 
+def test_a_dashpot_adds_a_force_that_goes_with_the_rate():
+    """Of a parabola the central difference is the slope itself, between even samples."""
+    time = np.linspace(0.0, 2.0, 401)
+    signal = Record(time, 3.0 * time**2, None).signal
+    y = applied("viscous-damping", signal, damping=0.25)
+    np.testing.assert_allclose(y[1:-1], (6.0 * time**2 + 0.25 * 6.0 * time)[1:-1], rtol=1e-10)
+    still = applied("viscous-damping", replace(signal, timed=False), damping=0.25)
+    np.testing.assert_array_equal(still, 6.0 * time**2)
+
+
+@pytest.mark.parametrize(
+    ("force", "within"),
+    [
+        (lambda v: v, 1e-12),
+        (lambda v: v * np.abs(v), 6e-3),
+        (lambda v: np.sign(v) * np.sqrt(np.abs(v)), 0.06),
+        (np.tanh, 3e-3),
+    ],
+)
+def test_a_damping_curve_comes_near_every_force_of_the_rate(force, within):
+    """Through its knots; RMS between them, over the largest force."""
+    effect = registry.build("effects", "damping-curve")
+    knots = {p.name: float(p.meaning.split(" at ")[1].split()[0]) for p in effect.parameters if p.name != "fastest"}
+    forces = {name: float(force(np.array(2.0 * knot - 1.0))) for name, knot in knots.items()}
+    drawn = effect.curve(namedtuple("P", ["fastest", *forces])(1.0, **forces))
+    wanted = force(drawn.x)
+    assert float(np.sqrt(np.mean((drawn.y - wanted) ** 2))) < within * float(np.max(np.abs(wanted)))
+    time = np.linspace(0.0, 1.0, 400)
+    u = np.sin(2 * np.pi * time) / (2 * np.pi)
+    y = applied("damping-curve", Record(time, u, None).signal, fastest=1.0, **forces) - 2.0 * u
+    np.testing.assert_allclose(y, np.interp(np.cos(2 * np.pi * time), drawn.x, drawn.y), atol=0.02)
+
+
 def test_record_drift_takes_a_line_from_every_record_and_leaves_its_mean():
     effect = registry.build("effects", "record-drift")
     slow = record(output=2.0 * DRIVE + 0.3 + 0.7 * (TIME - 2.0))

@@ -1,7 +1,7 @@
 """What a law is ranked with where effects will be sought around it.
 
-In rounds, while all laws stay far from the noise: drifts and relaxations; curves of the input and of the output, plays,
-and linear dynamics that overshoot; the other free forms.
+In rounds, while all laws stay far from the noise: drifts and relaxations; curves of the input, of the output and beside
+the law, plays, and linear dynamics that overshoot; the other free forms.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.free_forms import FreeForm
 
 SIDES = ("dynamics before the law", "dynamics after the law")
-SHAPES = ("curve of the input", "curve of the output", "curve beside the law", "law")
+SHAPES = ("curve of the input", "curve of the output", "curve beside the law", "damping beside the law", "law")
 """Families."""
 
 

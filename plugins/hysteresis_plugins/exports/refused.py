@@ -10,6 +10,10 @@ def temperature(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
     raise ValueError("it needs the temperature, and a step is given time and input alone")
 
 
+def rate(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
+    raise ValueError("the rate at a sample is the central difference, which needs the next sample")
+
+
 def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
     if effect.terms:
         raise ValueError("its terms are made of a whole record, samples to come included")

@@ -8,6 +8,8 @@ CHAIN = [
     "rayleigh-hysteresis",
     "cubic-stiffness",
     "parallel-curve",
+    "damping-curve",
+    "viscous-damping",
     "backlash",
     "play-bank",
     "asymmetry",
