@@ -116,8 +116,9 @@ class Fitter:
             best = np.argsort(problem.squares(exchanged), kind="stable")[:CHAINS]
             points = np.column_stack([points, exchanged[:, best]])
         found = self._finished(problem, names, points)
-        # a curve may take over what the shape of the law alone was bent to
-        curve = linear and is_curve(self.stack.effect(name))
+        # a curve may take over what the shape of the law alone was bent to; one that is linear is solved for at once
+        effect = self.stack.effect(name)
+        curve = linear and is_curve(effect) and not effect.linear
         return min(found, self.from_anywhere(names), key=lambda one: one.rmse) if curve else found
 
     def reduced(self, hypothesis: Hypothesis, name: str) -> Hypothesis:
