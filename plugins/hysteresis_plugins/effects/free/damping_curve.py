@@ -74,4 +74,4 @@ class DampingCurve(FreeForm):
     def curve(self, p: Any) -> Curve:
         given = np.linspace(-p.fastest, p.fastest, POINTS)
         added = FORCE.drawn(given, -p.fastest, p.fastest, p)
-        return Curve(given, added, "rate of the input", "what is added to the output", "{input}/{time}", "{output}")
+        return Curve(given, added, "rate of the input", "part added to the output", "{input}/{time}", "{output}")

@@ -70,4 +70,4 @@ class ParallelCurve(FreeForm):
     def curve(self, p: Any) -> Curve:
         given = np.linspace(p.lowest, p.highest, POINTS)
         added = BEND.drawn(given, p.lowest, p.highest, p)
-        return Curve(given, added, "input", "what is added to the output", "{input}", "{output}")
+        return Curve(given, added, "input", "part added to the output", "{input}", "{output}")
