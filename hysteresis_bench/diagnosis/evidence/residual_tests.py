@@ -90,7 +90,8 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
     ):
         waves = ripple(residuals, courses)
         if waves is not None:
-            words = f"repeats itself {rounded(waves.cycles)} times over the range of the {kind}"
+            often = f"{rounded(waves.cycles)} times over the range of" if waves.cycles else "along"
+            words = f"repeats itself {often} the {kind}"
             yield test(f"ripple-{kind}", waves.test.statistic, waves.test.p, waves.test.share, words)
     for kind, columns, words in _scatters(views):
         answer = autocorrelated.f_test(_sizes(residuals), columns)

@@ -37,7 +37,9 @@ WIDTH = 3
 
 @dataclass(frozen=True)
 class Ripple:
-    """test : of the largest line, p over all that were looked at;  cycles : of it, over the range"""
+    """test : of the largest line, p over all that were looked at
+    cycles : of it, over the range;  0 where there is no line
+    """
 
     test: FTest
     cycles: float
