@@ -93,7 +93,7 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
         others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
         level = _level(found)
-        own = replace(final, errors=level.thin.unseen(level.final))
+        own = final if level is found else replace(final, errors=found.thin.unseen(level.final))
         cause = law_as_cause(level, own, [one for one in screened if one.model in laws], few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):
             return replace(known, cause=cause, untested=untested)
@@ -139,6 +139,8 @@ def in_question(found: Found) -> tuple[str, ...]:
 def _level(found: Found) -> Found:
     """With a constant a record, as every other law has: whatever lifts a record is no other law's."""
     names = (found.final.names - {*registry.OFFSETS}) | OFFSET
+    if names == found.final.names:
+        return found
     return replace(found, final=found.thin.followed(replace(found.final, names=names)))
 
 
