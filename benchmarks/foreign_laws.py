@@ -49,7 +49,7 @@ DRIVES = ("growing", "triangle", "multi", "falling", "chirp", "biased")
 AMPLITUDES = (1.0, 0.8, 0.6, 0.9, 0.7)
 
 
-def _lagging(x: Array, step: float, tau: float) -> Array:
+def lagging(x: Array, step: float, tau: float) -> Array:
     a = np.exp(-step / tau)
     return np.asarray(lfilter([1 - a], [1, -a], x, zi=[a * x[0]])[0])
 
@@ -57,7 +57,7 @@ def _lagging(x: Array, step: float, tau: float) -> Array:
 def with_effect(name: str, y: Array, u: Array, t: Array, temperature: Array, rng: Generator) -> Array:
     """y with the effect; span of y: about 2."""
     if name == "output-lag":
-        return _lagging(y, t[1], rng.uniform(0.02, 0.06))
+        return lagging(y, t[1], rng.uniform(0.02, 0.06))
     if name == "transport-delay":
         late = int(rng.uniform(0.01, 0.04) / t[1])
         return np.concatenate([np.full(late, y[0]), y[:-late]])
@@ -65,7 +65,7 @@ def with_effect(name: str, y: Array, u: Array, t: Array, temperature: Array, rng
         return y + rng.uniform(0.03, 0.1) * 2.0 * t / 4
     if name == "creep":
         weight = rng.uniform(0.03, 0.06)
-        return y + sum(weight * _lagging(y, t[1], tau) for tau in (0.05, 0.15, 0.5))
+        return y + sum(weight * lagging(y, t[1], tau) for tau in (0.05, 0.15, 0.5))
     if name == "saturation":
         most = rng.uniform(0.6, 0.9) * np.abs(y).max()
         return np.asarray(most * np.tanh(y / most))

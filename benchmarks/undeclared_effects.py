@@ -18,8 +18,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
+from foreign_laws import lagging
 from numpy.random import Generator, default_rng
-from scipy.signal import lfilter
 
 from hysteresis_bench import DiagnosisOptions, diagnose
 from hysteresis_bench.arrays import Array
@@ -67,11 +67,6 @@ def prandtl_ishlinskii(u: Array) -> Array:
 LAWS = {"bouc-wen": bouc_wen, "prandtl-ishlinskii": prandtl_ishlinskii}
 
 
-def lagging(x: Array, constant: float) -> Array:
-    a = np.exp(-STEP / constant)
-    return np.asarray(lfilter([1 - a], [1, -a], x, zi=[a * x[0]])[0])
-
-
 def _fringes(one: Made, rng: Generator) -> Array:
     """An interferometer's error, once a fringe of the output."""
     return one.y + 0.02 * one.span * np.sin(2 * np.pi * one.y / (0.08 * one.span) + 0.7)
@@ -84,7 +79,7 @@ def _cogging(one: Made, rng: Generator) -> Array:
 
 def _avalanches(one: Made, rng: Generator) -> Array:
     jumps = (rng.random(one.y.size) < 0.02) * rng.standard_normal(one.y.size)
-    return one.y + lagging(np.cumsum(jumps) * 0.015 * one.span, 0.01)
+    return one.y + lagging(np.cumsum(jumps) * 0.015 * one.span, STEP, 0.01)
 
 
 def _missed_counts(one: Made, rng: Generator) -> Array:
@@ -94,7 +89,7 @@ def _missed_counts(one: Made, rng: Generator) -> Array:
 
 def _self_heating(one: Made, rng: Generator) -> Array:
     """The gain falls with what was dissipated of late."""
-    return one.y * (1.0 - 0.013 * lagging(np.abs(one.v), 1.0))
+    return one.y * (1.0 - 0.013 * lagging(np.abs(one.v), STEP, 1.0))
 
 
 def _mullins(one: Made, rng: Generator) -> Array:
@@ -104,7 +99,7 @@ def _mullins(one: Made, rng: Generator) -> Array:
 
 def _crosstalk(one: Made, rng: Generator) -> Array:
     """Another axis, which was not measured."""
-    wandering = lagging(lagging(rng.standard_normal(one.y.size), 40 * STEP), 40 * STEP)
+    wandering = lagging(lagging(rng.standard_normal(one.y.size), STEP, 40 * STEP), STEP, 40 * STEP)
     return one.y + 0.02 * one.span * wandering / wandering.std()
 
 
