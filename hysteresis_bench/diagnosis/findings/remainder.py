@@ -89,7 +89,7 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     slow = noise and not white and _hidden(residuals, len(tests)) <= WRONG * floor
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
     ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
-    repeating = f"{ripple.words.capitalize()}." if ripple else ""
+    repeating = f"{ripple.words.capitalize().partition(', p =')[0]}." if ripple else ""
     return Remainder(equation, not (slow or heavy), slow, heavy, louder, repeating)
 
 

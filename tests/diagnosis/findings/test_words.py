@@ -43,7 +43,7 @@ def replace_held_out(stage, rmse):
 
 
 def test_what_repeats_itself_is_told_last():
-    sentence = "The residual repeats itself 12 times over the range of the input, p = 0."
+    sentence = "The residual repeats itself 12 times over the range of the input (84% of its variance)."
     assert headline(outcome_of((), {}, rmse=0.5, repeating=sentence)).endswith(f"explains. {sentence}")
 
 
