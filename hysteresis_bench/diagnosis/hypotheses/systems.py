@@ -11,6 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Acts, Effect, Family, Model
 from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.fit.checks.redundant import is_redundant
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.rough import Rough, solvable
@@ -108,6 +109,8 @@ class Stack:
                 impossible[name] = "behind it the output is not linear in the law's many weights, which are solved for"
             elif broken := self._broken_promises(name):
                 impossible[name] = f"broken: {broken}"
+            elif is_redundant(self.problem([name]), name):
+                impossible[name] = "the model's own equation adds the same already"
             else:
                 possible.append(name)
         return tuple(possible), impossible
