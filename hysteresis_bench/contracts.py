@@ -36,6 +36,7 @@ Family: TypeAlias = Literal[
     "added disturbance",
     "change with time, path or temperature",
     "dynamics after the law",
+    "cyclic error",
 ]
 """Effects of one family do alike. Of those that act in one place, the earlier family stands further inside."""
 
@@ -245,8 +246,7 @@ class Range:
 class Rig(ABC):
     """A virtual test bench: a physical simulation that is the ground truth, never the model under test."""
 
-    experiments: ClassVar[dict[str, str]]
-    """Name and one-line description of what can be measured."""
+    experiments: ClassVar[dict[str, str]]  # by name, a line on what can be measured
     units: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Of "time", "input" and "output"; a model in others is refused. One that is absent is not compared."""
     ranges: ClassVar[Mapping[str, Range]] = MappingProxyType({})

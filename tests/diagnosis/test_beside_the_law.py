@@ -1,4 +1,4 @@
-"""A spring or a damper beside a hysteresis: named where its formula is the program's, else by its family."""
+"""A spring, a damper, cogging or a cyclic error: named where its formula is the program's, else by its family."""
 
 import numpy as np
 import pytest
@@ -23,30 +23,43 @@ def loop(u: np.ndarray) -> np.ndarray:
     return y
 
 
-def measured(force) -> Dataset:
-    """force : of the input and of its rate over a fast one"""
+def beside(force):
+    """force : of the input and of its rate over a fast one, added to the law's"""
+    return lambda u, v: loop(u) + force(u, v)
+
+
+def fringes(u, v):
+    y = loop(u)
+    return y + 0.02 * np.sin(2 * np.pi * y / 0.12 + 0.7)
+
+
+def measured(device) -> Dataset:
+    """device : output of the input, and of its rate over a fast one"""
     rng, made = np.random.default_rng(8), []
     for amplitude, frequency, other in ((1.0, 1.0, 0.0), (0.8, 1.5, 0.4), (0.9, 0.5, 0.6)):
         u = np.sin(2 * np.pi * frequency * TIME) + other * np.sin(7.4 * np.pi * frequency * TIME)
         u *= amplitude / np.max(np.abs(u))
         v = np.gradient(u, TIME) / FAST
-        made.append(Record(TIME, u, loop(u) + force(u, v), name=f"run {len(made)}"))
+        made.append(Record(TIME, u, device(u, v), name=f"run {len(made)}"))
     noise = NOISE * np.ptp(made[0].output)
     return Dataset(tuple(Record(r.time, r.input, r.output + noise * rng.standard_normal(500), r.name) for r in made))
 
 
 @pytest.mark.parametrize(
-    ("force", "name"),
+    ("device", "name"),
     [
-        (lambda u, v: 0.25 * u**3, "cubic-stiffness"),
-        (lambda u, v: -0.15 * u**3, "cubic-stiffness"),
-        (lambda u, v: 0.25 * u**5, "parallel-curve"),
-        (lambda u, v: 0.1 * v, "viscous-damping"),
-        (lambda u, v: 0.1 * v * np.abs(v), "damping-curve"),
+        (beside(lambda u, v: 0.25 * u**3), "cubic-stiffness"),
+        (beside(lambda u, v: -0.15 * u**3), "cubic-stiffness"),
+        (beside(lambda u, v: 0.25 * u**5), "parallel-curve"),
+        (beside(lambda u, v: 0.1 * v), "viscous-damping"),
+        (beside(lambda u, v: 0.1 * v * np.abs(v)), "damping-curve"),
+        (beside(lambda u, v: 0.02 * np.sin(2 * np.pi * u / 0.17 + 0.5)), "cogging"),
+        (fringes, "output-cyclic-error"),
+        (lambda u, v: loop(u + 0.012 * np.sin(2 * np.pi * u / 0.15 + 1.1)), "input-cyclic-error"),
     ],
 )
-def test_what_acts_beside_the_law_is_named_or_its_family(force, name):
-    found = diagnose(measured(force), "bouc-wen", options=DiagnosisOptions(jobs=1))
+def test_what_acts_beside_the_law_or_errs_is_named_or_its_family(device, name):
+    found = diagnose(measured(device), "bouc-wen", options=DiagnosisOptions(jobs=1))
     assert found.effects == (name,)
     assert found.before.fitted.rmse > 2.0 * found.floor
     assert found.after.fitted.rmse < 1.15 * found.floor

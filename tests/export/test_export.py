@@ -66,18 +66,22 @@ LEVELS = {
     "at_high": 1.5,
     "at_highest": 3.0,
 }
+RIPPLE = {"sine": 0.1, "cosine": -0.2, "second_sine": 0.05, "second_cosine": 0.03, "period": 0.4}
 WEIGHTS = {f"weight{k}": (-1) ** k * 0.1 * k for k in range(1, 8)}
 EFFECTS = {
     "asymmetry": {"curvature": 0.03},
     "backlash": {"half_width": 0.3},
     "bias": {"offset": 0.7},
+    "cogging": RIPPLE,
     "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
     "cubic-stiffness": {"cubic": 0.02},
     "drift": {"rate": -0.3},
     "droop": {"rate": 2.0, "share": 0.8},
     "fatigue": {"rate": 0.01},
+    "input-cyclic-error": RIPPLE,
     "input-lag": {"time_constant": 0.01},
     "leakage": {"conductance": 0.5},
+    "output-cyclic-error": RIPPLE,
     "output-lag": {"time_constant": 0.02},
     "periodic-disturbance": {"cosine": 0.1, "sine": -0.2, "frequency": 7.0},
     "rayleigh-hysteresis": {"coefficient": 0.02},

@@ -357,6 +357,41 @@ def test_a_cubic_of_the_input_acts_beside_the_law():
     np.testing.assert_allclose(y, 2.0 * DRIVE - 0.07 * DRIVE**3, rtol=1e-13)
 
 
+def test_cogging_repeats_itself_along_the_input_and_an_error_of_the_output_along_the_response():
+    waves = {"sine": 0.3, "cosine": -0.2, "second_sine": 0.1, "second_cosine": 0.05, "period": 0.7}
+
+    def wave(x: np.ndarray) -> np.ndarray:
+        w = 2.0 * np.pi * x / 0.7
+        return 0.3 * np.sin(w) - 0.2 * np.cos(w) + 0.1 * np.sin(2.0 * w) + 0.05 * np.cos(2.0 * w)
+
+    for name, course in (("cogging", DRIVE), ("output-cyclic-error", 2.0 * DRIVE)):
+        y = applied(name, record().signal, **waves)
+        np.testing.assert_allclose(y, 2.0 * DRIVE + wave(course), atol=1e-12)
+    off = applied("input-cyclic-error", record().signal, **waves)
+    np.testing.assert_allclose(off, 2.0 * (DRIVE + wave(DRIVE)), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "cycles"), [("cogging", 7.3), ("output-cyclic-error", 10.4), ("cogging", 9.9), ("input-cyclic-error", 8.2)]
+)
+def test_a_ripple_begins_at_the_period_that_the_residual_has(name, cycles):
+    """Beside what is smooth along the course, and other on the way back."""
+    made = record()
+    y = made.measured
+    course = y if name == "output-cyclic-error" else made.input
+    ripple = 0.1 * np.sin(2.0 * np.pi * course * cycles / np.ptp(course) + 0.4)
+    left = 0.3 * course**2 + 0.05 * np.sign(np.gradient(made.input))
+    left += (2.0 if name == "input-cyclic-error" else 1.0) * ripple  # which the loop passes on twice as large
+    left += 0.02 * np.random.default_rng(3).standard_normal(y.size)
+    best = registry.build("effects", name).starts([replace(made, output=y + left)], [left])[0]
+    assert abs(np.ptp(course) / best["period"] - cycles) < 0.4
+    assert np.hypot(best["sine"], best["cosine"]) == pytest.approx(0.1, abs=0.03)
+
+
+def test_too_few_samples_resolve_no_ripple():
+    assert "too far apart" in against("cogging", record(TIME[::40], DRIVE[::40]))
+
+
 def test_a_parallel_curve_comes_near_every_spring_but_its_straight_part():
     """A cubic less the straight line that makes its ends alike, at all knots, and nearly between them."""
     effect = registry.build("effects", "parallel-curve")

@@ -1,4 +1,4 @@
-"""The records without a disturbance that was found, such as a hum: a fast one had passed for noise."""
+"""The records without a disturbance that was found, such as a hum or fringes: a fast one had passed for noise."""
 
 from __future__ import annotations
 
@@ -10,14 +10,17 @@ from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.signals import Record
 
+DISTURBANCES = ("added disturbance", "cyclic error")
+"""Families."""
+
 
 def undisturbed(fitter: Fitter, hypothesis: Hypothesis) -> tuple[Record, ...]:
-    """The fitted records themselves where the hypothesis has no added disturbance."""
+    """The fitted records themselves where the hypothesis has no disturbance."""
     stack = fitter.stack
     silent = {
         f"{name}.{p.name}": p.null
         for name in sorted(hypothesis.names)
-        if stack.effect(name).family == "added disturbance" and not stack.effect(name).nuisance
+        if stack.effect(name).family in DISTURBANCES and not stack.effect(name).nuisance
         for p in stack.effect(name).parameters
         if p.null is not None
     }

@@ -1,0 +1,131 @@
+"""What repeats itself along a course, the input or the output, once a tooth, a line or a fringe, whatever the time."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.polynomial.legendre import legvander
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record
+from hysteresis_plugins.effects._ranges import motionless
+
+LEAST, MOST = 5.0, 128.0
+"""Cycles over the range that are searched: fewer are a smooth curve's."""
+
+SAMPLES = 4.0
+"""A cycle, at least, at the median speed."""
+
+DEGREE = 4
+"""Of the smooth curve of the course that is taken out of residuals first, as it is no ripple."""
+
+BINS = 1024
+APART = 2.0
+"""Cycles over the range between two proposals."""
+
+AMPLITUDES = ("sine", "cosine", "second_sine", "second_cosine")
+
+
+def parameters(unit: str, course: str) -> tuple[Parameter, ...]:
+    """unit : of what is added;  course : unit of the course"""
+    once, twice, earlier = "once a period", "twice a period", "a quarter of a turn earlier"
+    return (
+        Parameter("sine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {once}"),
+        Parameter("cosine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {once}, {earlier}"),
+        Parameter("second_sine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {twice}"),
+        Parameter("second_cosine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {twice}, {earlier}"),
+        Parameter("period", 0.01, 1.0, course, "log", meaning="after which it repeats itself", positive=True),
+    )
+
+
+def ripple(course: Array, p: Any) -> Array:
+    """What is added; course : (samples, columns)"""
+    turn = (2.0 * np.pi / p.period) * course
+    sine, cosine = np.sin(turn), np.cos(turn)
+    once: Array = p.sine * sine + p.cosine * cosine
+    twice: Array = p.second_sine * (2.0 * sine * cosine) + p.second_cosine * (1.0 - 2.0 * sine * sine)
+    return once + twice
+
+
+def is_flat(p: Any) -> bool:
+    """Is nothing added, by any column?"""
+    return not any(np.any(getattr(p, name)) for name in AMPLITUDES)
+
+
+def box(own: tuple[Parameter, ...], courses: Sequence[Array], most: float) -> tuple[Parameter, ...]:
+    """From `LEAST` periods over the range of the course to as many as its samples resolve; amplitudes up to `most`."""
+    span = _span(courses) or 1.0
+    finest = max(_resolved(courses), 2.0 * LEAST)
+    return (*(one.within(-most, most) for one in own[:-1]), own[-1].within(span / finest, span / LEAST))
+
+
+def inapplicable(records: Sequence[Record], courses: Sequence[Array]) -> str:
+    if reason := motionless(records):
+        return reason
+    if _resolved(courses) < 2.0 * LEAST:
+        return f"the samples lie too far apart for {2.0 * LEAST:.0f} periods over the range"
+    return ""
+
+
+def proposals(
+    courses: Sequence[Array], residuals: Sequence[Array], slopes: Sequence[Array] | None = None
+) -> list[dict[str, float]]:
+    """Values from which to fit: the highest line of the residuals along the course, once as the first harmonic and
+    once as the second, and the next highest.
+
+    courses, residuals : (scored samples,) a record;  slopes : of the residual over what is added, 1 where not given
+    """
+    course, span = np.concatenate(list(courses)), _span(courses)
+    cycles = np.arange(LEAST, _resolved(courses), 0.25)
+    if not cycles.size:
+        return []
+    x = (course - course.min()) / span
+    weight = np.ones(x.size) if slopes is None else np.concatenate(list(slopes))
+    left = _without_smooth(np.concatenate(list(residuals)), x, [one.size for one in courses])
+    place = np.minimum((x * BINS).astype(int), BINS - 1)
+    turns = 2.0 * np.pi * np.outer(cycles, (np.arange(BINS) + 0.5) / BINS)
+    count, total = np.bincount(place, weight * weight, BINS), np.bincount(place, weight * left, BINS)
+    gains = _gains(np.sin(turns), np.cos(turns), count, total)
+    found: list[float] = []
+    while len(found) < 2 and np.max(gains) > 0.0:
+        found.append(float(cycles[np.argmax(gains)]))
+        gains[np.abs(cycles - found[-1]) < APART] = 0.0
+    halved = [0.5 * best for best in found[:1] if best >= 2.0 * LEAST]
+    return [_amplitudes(course, left, weight, span / each) for each in (*found, *halved)]
+
+
+def _without_smooth(left: Array, x: Array, sizes: Sequence[int]) -> Array:
+    """Residuals less a constant a record and a smooth curve of the course;  x : 0 to 1"""
+    owner = np.repeat(np.arange(len(sizes)), sizes)
+    smooth = np.column_stack([owner[:, None] == np.arange(len(sizes)), legvander(2.0 * x - 1.0, DEGREE)[:, 1:]])
+    followed: Array = smooth @ np.linalg.lstsq(smooth, left, rcond=None)[0]
+    return left - followed
+
+
+def _gains(sine: Array, cosine: Array, count: Array, total: Array) -> Array:
+    """By how much a wave at each frequency, (frequencies, bins), lowers the sum of squares."""
+    ss, cc, sc = (sine * sine) @ count, (cosine * cosine) @ count, (sine * cosine) @ count
+    s, c = sine @ total, cosine @ total
+    gain: Array = (s * s * cc - 2.0 * s * c * sc + c * c * ss) / np.maximum(ss * cc - sc * sc, 1e-9 * (ss + cc) ** 2)
+    return gain
+
+
+def _amplitudes(course: Array, left: Array, weight: Array, period: float) -> dict[str, float]:
+    turn = 2.0 * np.pi * course / period
+    columns = np.column_stack([np.sin(turn), np.cos(turn), np.sin(2.0 * turn), np.cos(2.0 * turn)])
+    found = np.linalg.lstsq(weight[:, None] * columns, left, rcond=None)[0]
+    return {**dict(zip(AMPLITUDES, map(float, found), strict=True)), "period": period}
+
+
+def _span(courses: Sequence[Array]) -> float:
+    return float(max(course.max() for course in courses) - min(course.min() for course in courses))
+
+
+def _resolved(courses: Sequence[Array]) -> float:
+    """Cycles over the range that the samples resolve, `MOST` at the most; 0 where nothing moves."""
+    steps = np.abs(np.concatenate([np.diff(course) for course in courses]))
+    moving = steps[steps > 0.0]
+    return min(MOST, _span(courses) / (SAMPLES * float(np.median(moving)))) if moving.size else 0.0

@@ -1,0 +1,80 @@
+"""Cogging: beside the hysteresis acts a force that repeats itself along the input."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects import _ripple
+from hysteresis_plugins.effects._ranges import output_span
+
+HIDDEN = 0.1
+"""Of the largest response, the amplitude in made data at full strength."""
+
+
+def _turn(u: Array, hiding: Hiding) -> Array:
+    """Six to fourteen periods from the lowest to the highest drive."""
+    return np.asarray(np.pi * (6.0 + 8.0 * hiding.random[0]) * u / hiding.amplitude + 2.0 * np.pi * hiding.random[1])
+
+
+def _sinusoid(inner: Response, u: Array, hiding: Hiding) -> Array:
+    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.sin(_turn(u, hiding))
+
+
+def _skewed(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """Teeth that are steeper on one side."""
+    turn = _turn(u, hiding)
+    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.sin(turn) / (1.0 + 0.5 * np.cos(turn))
+
+
+def _detents(inner: Response, u: Array, hiding: Hiding) -> Array:
+    """A triangle: between two detents the force is straight."""
+    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.arcsin(np.sin(_turn(u, hiding)))
+
+
+@dataclass(frozen=True)
+class Cogging(Effect):
+    """Beside the hysteresis acts a force that repeats itself along the input, such as a motor's cogging.
+
+    y = x + sine sin(w) + cosine cos(w) + second_sine sin(2 w) + second_cosine cos(2 w), w = 2 pi u / period, x the
+    response: the first two harmonics, as of a linear motor's cogging [1].
+
+    Amplitudes are linear, the period is not: the error has a minimum at every line of the residual along the input, so
+    a fit should begin at what `starts` proposes.
+
+    [1] P. J. Hor, Z. Q. Zhu, D. Howe, J. Rees-Jones, IEEE Trans. Magnetics 34 (1998) 3544.
+    """
+
+    acts = "law"
+    family = "cyclic error"
+    affine = True
+    linear = _ripple.AMPLITUDES
+    mistaken_for: ClassVar[Mapping[str, str]] = {
+        "input-cyclic-error": "where a loop is equally steep, an error of the input is one of the output",
+        "output-cyclic-error": "of a thin, straight loop, what repeats itself along the input does so along the output",
+    }
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_sinusoid,)
+    other_forms: ClassVar[tuple[HiddenForm, ...]] = (_skewed, _detents)
+    parameters = _ripple.parameters("{output}", "{input}")
+
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        output = inner(signal)
+        return output if _ripple.is_flat(p) else output + _ripple.ripple(signal.input, p)
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Amplitudes up to a fifth of the output's range."""
+        return _ripple.box(self.parameters, [record.input for record in records], 0.2 * (output_span(records) or 1.0))
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return _ripple.inapplicable(records, [record.input for record in records])
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+        """The clearest periods along the input."""
+        return _ripple.proposals([record.input[record.scored] for record in records], residuals)
