@@ -73,6 +73,9 @@ EFFECTS = {
     "backlash": {"half_width": 0.3},
     "bias": {"offset": 0.7},
     "cogging": RIPPLE,
+    "cogging-wave": {
+        "period": 0.4, **{f"{name}{k}": 0.1 / k * (-1) ** k for k in range(1, 7) for name in ("sine", "cosine")},
+    },
     "creep": {"share": 0.2, "time_constant": 0.1, "decades": 2.0},
     "cubic-stiffness": {"cubic": 0.02},
     "drift": {"rate": -0.3},

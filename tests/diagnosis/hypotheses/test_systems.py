@@ -11,6 +11,7 @@ CHAIN = [
     "damping-curve",
     "viscous-damping",
     "cogging",
+    "cogging-wave",
     "backlash",
     "play-bank",
     "asymmetry",

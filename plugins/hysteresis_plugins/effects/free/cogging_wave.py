@@ -1,0 +1,76 @@
+"""Cogging wave: beside the hysteresis acts a force of any waveform that repeats itself along the input."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from hysteresis_bench.arrays import Array
+from hysteresis_bench.free_forms import Curve, FreeForm
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._ranges import output_span
+from hysteresis_plugins.effects._ripple import AMPLITUDES
+from hysteresis_plugins.effects.cogging import Cogging
+from hysteresis_plugins.effects.free._spline import POINTS
+
+HARMONICS = 6
+WAVES = tuple(f"{name}{order}" for order in range(1, HARMONICS + 1) for name in ("sine", "cosine"))
+
+
+@dataclass(frozen=True)
+class CoggingWave(FreeForm):
+    """Beside the hysteresis acts a force of any waveform that repeats itself along the input, such as of sharp teeth.
+
+    y = x + sum over n of sine_n sin(n w) + cosine_n cos(n w), w = 2 pi u / period, x the response: the first six
+    harmonics, of which `cogging` has two.
+    """
+
+    acts = "law"
+    family = "cyclic error"
+    affine = True
+    linear = WAVES
+    parameters: ClassVar[tuple[Parameter, ...]] = (
+        Cogging.parameters[-1],
+        *(Parameter(one, -1.0, 1.0, "{output}", null=0.0, meaning=f"amplitude of harmonic {one[-1]}") for one in WAVES),
+    )
+
+    def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
+        output = inner(signal)
+        return output + _wave(signal.input, p) if any(np.any(getattr(p, one)) for one in WAVES) else output
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """Periods as of `cogging`; amplitudes up to a fifth of the output's range."""
+        most = 0.2 * (output_span(records) or 1.0)
+        return Cogging().box(records)[-1], *(one.within(-most, most) for one in self.parameters[1:])
+
+    def inapplicable(self, records: Sequence[Record]) -> str:
+        return Cogging().inapplicable(records)
+
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+        """The clearest periods along the input."""
+        silent = dict.fromkeys(WAVES, 0.0)
+        return [
+            {**silent, "period": line["period"], **dict(zip(WAVES, (line[one] for one in AMPLITUDES), strict=False))}
+            for line in Cogging().starts(records, residuals)
+        ]
+
+    def curve(self, p: Any) -> Curve:
+        """Over two periods."""
+        given = np.linspace(0.0, 2.0 * p.period, POINTS)
+        return Curve(given, _wave(given, p), "input", "part added to the output", "{input}", "{output}")
+
+
+def _wave(course: Array, p: Any) -> Array:
+    """What is added; course : (samples, columns). Harmonics follow from the two before."""
+    turn = (2.0 * np.pi / p.period) * course
+    sine, cosine = np.sin(turn), np.cos(turn)
+    before, here, twice = (np.zeros_like(turn), np.ones_like(turn)), (sine, cosine), 2.0 * cosine
+    added: Array = np.zeros_like(turn)
+    for order in range(1, HARMONICS + 1):
+        added = added + getattr(p, f"sine{order}") * here[0] + getattr(p, f"cosine{order}") * here[1]
+        before, here = here, (twice * here[0] - before[0], twice * here[1] - before[1])
+    return added
