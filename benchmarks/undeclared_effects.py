@@ -1,6 +1,6 @@
 """What does the diagnosis say of effects that are not among those it knows?
 
-    python benchmarks/undeclared_effects.py [--laws bouc-wen] [--effects fringes,cogging] [--seed 5] [--jobs 1]
+    python benchmarks/undeclared_effects.py [--laws bouc-wen] [--effects Mullins,inertia] [--seed 5] [--jobs 1]
 
 Loops of a law that is given, by code of their own, with one effect that no plugin has: five records of different
 drives, the last one held out; noise of 0.2 % of the range. Told are the verdict, what is claimed, and the error on what
@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import argparse
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
 
@@ -65,16 +65,6 @@ def prandtl_ishlinskii(u: Array) -> Array:
 
 
 LAWS = {"bouc-wen": bouc_wen, "prandtl-ishlinskii": prandtl_ishlinskii}
-
-
-def _fringes(one: Made, rng: Generator) -> Array:
-    """An interferometer's error, once a fringe of the output."""
-    return one.y + 0.02 * one.span * np.sin(2 * np.pi * one.y / (0.08 * one.span) + 0.7)
-
-
-def _cogging(one: Made, rng: Generator) -> Array:
-    """Of a motor or a gear, once a tooth of the input."""
-    return one.y + 0.02 * one.span * np.sin(2 * np.pi * one.u / 0.15 + 0.5)
 
 
 def _avalanches(one: Made, rng: Generator) -> Array:
@@ -147,10 +137,15 @@ def _inertia(one: Made, rng: Generator) -> Array:
     return one.y + 0.05 * one.span * np.gradient(one.v, TIME) / 150.0
 
 
-EFFECTS: dict[str, Callable[[Made, Generator], Array]] = {
-    "none": lambda one, rng: one.y,
-    "fringes": _fringes,
-    "cogging": _cogging,
+Form = Callable[[Made, Generator], Array]
+
+
+def none(one: Made, rng: Generator) -> Array:
+    return one.y
+
+
+EFFECTS: dict[str, Form] = {
+    "none": none,
     "avalanches": _avalanches,
     "missed counts": _missed_counts,
     "self-heating": _self_heating,
@@ -178,7 +173,7 @@ def drives() -> list[Array]:
     ]
 
 
-def made(law: str, effect: str, seed: int) -> tuple[Dataset, float]:
+def made(law: str, form: Form, seed: int) -> tuple[Dataset, float]:
     """Records, the last one held out, and their noise."""
     rng, answer = default_rng(seed), LAWS[law]
     inputs = drives()
@@ -187,14 +182,14 @@ def made(law: str, effect: str, seed: int) -> tuple[Dataset, float]:
     ready = [
         Made(u, np.gradient(u, TIME), y, span, k, answer) for k, (u, y) in enumerate(zip(inputs, outputs, strict=True))
     ]
-    records = [Record(TIME, one.u, EFFECTS[effect](one, rng), name=f"run {one.number}") for one in ready]
+    records = [Record(TIME, one.u, form(one, rng), name=f"run {one.number}") for one in ready]
     noise = NOISE * float(np.ptp(np.concatenate([one.measured for one in records])))
     noisy = [replace(one, output=one.measured + noise * rng.standard_normal(TIME.size)) for one in records]
     return Dataset(tuple(noisy), (noisy[-1].name,)), noise
 
 
-def diagnosed(law: str, effect: str, seed: int) -> dict[str, object]:
-    dataset, noise = made(law, effect, seed)
+def diagnosed(law: str, effect: str, form: Form, seed: int) -> dict[str, object]:
+    dataset, noise = made(law, form, seed)
     begun = time.monotonic()
     found = diagnose(dataset, law, options=DiagnosisOptions(jobs=1))
     before, after = (stage.held_out or stage.fitted for stage in (found.before, found.after))
@@ -212,17 +207,18 @@ def diagnosed(law: str, effect: str, seed: int) -> dict[str, object]:
     }
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+def ask(title: str, effects: Mapping[str, Form]) -> None:
+    """Of the effects that the command line names; prints a line a case."""
+    parser = argparse.ArgumentParser(description=title)
     parser.add_argument("--laws", default=",".join(LAWS))
-    parser.add_argument("--effects", default=",".join(EFFECTS))
+    parser.add_argument("--effects", default=",".join(effects))
     parser.add_argument("--seed", type=int, default=5)
     parser.add_argument("--jobs", type=int, default=1)
     told = parser.parse_args()
     rows = []
     with ProcessPoolExecutor(told.jobs) as pool:
         asked = [(law, effect) for law in told.laws.split(",") for effect in told.effects.split(",")]
-        for one in [pool.submit(diagnosed, law, effect, told.seed) for law, effect in asked]:
+        for one in [pool.submit(diagnosed, law, effect, effects[effect], told.seed) for law, effect in asked]:
             rows.append(one.result())
             print(", ".join(f"{key}: {value}" for key, value in rows[-1].items()), flush=True)
     table = pd.DataFrame(rows)
@@ -232,4 +228,4 @@ def main() -> None:
 
 
 if __name__ == "__main__":
-    main()
+    ask(__doc__.partition("\n")[0], EFFECTS)

@@ -66,7 +66,7 @@ LEVELS = {
     "at_high": 1.5,
     "at_highest": 3.0,
 }
-RIPPLE = {"sine": 0.1, "cosine": -0.2, "second_sine": 0.05, "second_cosine": 0.03, "period": 0.4}
+RIPPLE = {"sine": 0.1, "cosine": -0.2, "second": 0.4, "second_aside": -0.3, "period": 0.4}
 WEIGHTS = {f"weight{k}": (-1) ** k * 0.1 * k for k in range(1, 8)}
 EFFECTS = {
     "asymmetry": {"curvature": 0.03},

@@ -358,11 +358,12 @@ def test_a_cubic_of_the_input_acts_beside_the_law():
 
 
 def test_cogging_repeats_itself_along_the_input_and_an_error_of_the_output_along_the_response():
-    waves = {"sine": 0.3, "cosine": -0.2, "second_sine": 0.1, "second_cosine": 0.05, "period": 0.7}
+    waves = {"sine": 0.3, "cosine": -0.2, "second": 0.5, "second_aside": -0.25, "period": 0.7}
 
     def wave(x: np.ndarray) -> np.ndarray:
         w = 2.0 * np.pi * x / 0.7
-        return 0.3 * np.sin(w) - 0.2 * np.cos(w) + 0.1 * np.sin(2.0 * w) + 0.05 * np.cos(2.0 * w)
+        second = (0.3 - 0.2j) * (0.5 - 0.25j)  # a complex amplitude: of the sine, and of the cosine
+        return 0.3 * np.sin(w) - 0.2 * np.cos(w) + second.real * np.sin(2.0 * w) + second.imag * np.cos(2.0 * w)
 
     for name, course in (("cogging", DRIVE), ("output-cyclic-error", 2.0 * DRIVE)):
         y = applied(name, record().signal, **waves)
@@ -386,6 +387,16 @@ def test_a_ripple_begins_at_the_period_that_the_residual_has(name, cycles):
     best = registry.build("effects", name).starts([replace(made, output=y + left)], [left])[0]
     assert abs(np.ptp(course) / best["period"] - cycles) < 0.4
     assert np.hypot(best["sine"], best["cosine"]) == pytest.approx(0.1, abs=0.03)
+    assert np.hypot(best["second"], best["second_aside"]) < 0.3
+
+
+def test_a_cogging_wave_begins_with_the_lines_of_cogging_and_with_twice_the_longest():
+    made = record()
+    left = 0.1 * np.sin(2.0 * np.pi * made.input / 0.8 + 0.4)
+    lines = registry.build("effects", "cogging").starts([made], [left])
+    starts = registry.build("effects", "cogging-wave").starts([made], [left])
+    assert [one["period"] for one in starts] == [lines[0]["period"], lines[1]["period"], 2.0 * lines[0]["period"]]
+    assert (starts[2]["sine2"], starts[2]["cosine2"]) == (lines[0]["sine"], lines[0]["cosine"])
 
 
 def test_too_few_samples_resolve_no_ripple():

@@ -26,40 +26,53 @@ BINS = 1024
 APART = 2.0
 """Cycles over the range between two proposals."""
 
-AMPLITUDES = ("sine", "cosine", "second_sine", "second_cosine")
+AMPLITUDES = ("sine", "cosine")
+
+MOST_SECOND = 0.7
+"""Of the first harmonic, the second one's two parts, which is then the smaller: else each ripple has a fit of twice its
+period, with next to no first harmonic."""
 
 
 def parameters(unit: str, course: str) -> tuple[Parameter, ...]:
     """unit : of what is added;  course : unit of the course"""
-    once, twice, earlier = "once a period", "twice a period", "a quarter of a turn earlier"
+    most, over = MOST_SECOND, "second harmonic over the first"
     return (
-        Parameter("sine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {once}"),
-        Parameter("cosine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {once}, {earlier}"),
-        Parameter("second_sine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {twice}"),
-        Parameter("second_cosine", -1.0, 1.0, unit, null=0.0, meaning=f"amplitude {twice}, {earlier}"),
+        Parameter("sine", -1.0, 1.0, unit, null=0.0, meaning="amplitude"),
+        Parameter("cosine", -1.0, 1.0, unit, null=0.0, meaning="amplitude a quarter of a period earlier"),
+        Parameter("second", -most, most, meaning=f"{over}, in phase"),
+        Parameter("second_aside", -most, most, meaning=f"{over}, a quarter of its period earlier"),
         Parameter("period", 0.01, 1.0, course, "log", meaning="after which it repeats itself", positive=True),
     )
 
 
 def ripple(course: Array, p: Any) -> Array:
-    """What is added; course : (samples, columns)"""
+    """sine s + cosine c with s = sin w + second sin 2 w + second_aside cos 2 w, c the same a quarter of a period of
+    either harmonic earlier, w = 2 pi course / period;  course : (samples, columns)"""
     turn = (2.0 * np.pi / p.period) * course
     sine, cosine = np.sin(turn), np.cos(turn)
-    once: Array = p.sine * sine + p.cosine * cosine
-    twice: Array = p.second_sine * (2.0 * sine * cosine) + p.second_cosine * (1.0 - 2.0 * sine * sine)
-    return once + twice
+    twice, twice_earlier = 2.0 * sine * cosine, 1.0 - 2.0 * sine * sine
+    s = sine + p.second * twice + p.second_aside * twice_earlier
+    c = cosine + p.second * twice_earlier - p.second_aside * twice
+    added: Array = p.sine * s + p.cosine * c
+    return added
 
 
 def is_flat(p: Any) -> bool:
     """Is nothing added, by any column?"""
-    return not any(np.any(getattr(p, name)) for name in AMPLITUDES)
+    return not (np.any(p.sine) or np.any(p.cosine))
 
 
 def box(own: tuple[Parameter, ...], courses: Sequence[Array], most: float) -> tuple[Parameter, ...]:
     """From `LEAST` periods over the range of the course to as many as its samples resolve; amplitudes up to `most`."""
+    sine, cosine, *shares, period = own
     span = _span(courses) or 1.0
     finest = max(_resolved(courses), 2.0 * LEAST)
-    return (*(one.within(-most, most) for one in own[:-1]), own[-1].within(span / finest, span / LEAST))
+    return (
+        sine.within(-most, most),
+        cosine.within(-most, most),
+        *shares,
+        period.within(span / finest, span / LEAST),
+    )
 
 
 def inapplicable(records: Sequence[Record], courses: Sequence[Array]) -> str:
@@ -73,8 +86,7 @@ def inapplicable(records: Sequence[Record], courses: Sequence[Array]) -> str:
 def proposals(
     courses: Sequence[Array], residuals: Sequence[Array], slopes: Sequence[Array] | None = None
 ) -> list[dict[str, float]]:
-    """Values from which to fit: the highest line of the residuals along the course, once as the first harmonic and
-    once as the second, and the next highest.
+    """Values from which to fit: the two highest lines of the residuals along the course.
 
     courses, residuals : (scored samples,) a record;  slopes : of the residual over what is added, 1 where not given
     """
@@ -93,8 +105,7 @@ def proposals(
     while len(found) < 2 and np.max(gains) > 0.0:
         found.append(float(cycles[np.argmax(gains)]))
         gains[np.abs(cycles - found[-1]) < APART] = 0.0
-    halved = [0.5 * best for best in found[:1] if best >= 2.0 * LEAST]
-    return [_amplitudes(course, left, weight, span / each) for each in (*found, *halved)]
+    return [_amplitudes(course, left, weight, span / each) for each in found]
 
 
 def _without_smooth(left: Array, x: Array, sizes: Sequence[int]) -> Array:
@@ -117,7 +128,16 @@ def _amplitudes(course: Array, left: Array, weight: Array, period: float) -> dic
     turn = 2.0 * np.pi * course / period
     columns = np.column_stack([np.sin(turn), np.cos(turn), np.sin(2.0 * turn), np.cos(2.0 * turn)])
     found = np.linalg.lstsq(weight[:, None] * columns, left, rcond=None)[0]
-    return {**dict(zip(AMPLITUDES, map(float, found), strict=True)), "period": period}
+    first, second = complex(found[0], found[1]), complex(found[2], found[3])
+    share = second / first if first else 0j
+    share *= min(1.0, MOST_SECOND / max(abs(share), MOST_SECOND))
+    return {
+        "sine": first.real,
+        "cosine": first.imag,
+        "second": share.real,
+        "second_aside": share.imag,
+        "period": period,
+    }
 
 
 def _span(courses: Sequence[Array]) -> float:

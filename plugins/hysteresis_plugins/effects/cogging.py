@@ -43,11 +43,12 @@ def _detents(inner: Response, u: Array, hiding: Hiding) -> Array:
 class Cogging(Effect):
     """Beside the hysteresis acts a force that repeats itself along the input, such as a motor's cogging.
 
-    y = x + sine sin(w) + cosine cos(w) + second_sine sin(2 w) + second_cosine cos(2 w), w = 2 pi u / period, x the
-    response: the first two harmonics, as of a linear motor's cogging [1].
+    y = x + sine s + cosine c, s = sin w + second sin 2 w + second_aside cos 2 w, w = 2 pi u / period, c as s
+    with either harmonic a quarter of its period earlier, x the response: the first two harmonics, as of a linear
+    motor's cogging [1]. Ours: the second is told over the first, and is the smaller.
 
-    Amplitudes are linear, the period is not: the error has a minimum at every line of the residual along the input, so
-    a fit should begin at what `starts` proposes.
+    Two amplitudes are linear, the period is not: the error has a minimum at every line of the residual along the input,
+    so a fit should begin at what `starts` proposes.
 
     [1] P. J. Hor, Z. Q. Zhu, D. Howe, J. Rees-Jones, IEEE Trans. Magnetics 34 (1998) 3544.
     """

@@ -42,8 +42,9 @@ def _run_out(inner: Response, u: Array, hiding: Hiding) -> Array:
 class InputCyclicError(Effect):
     """What acts is off the input by as much once a line, a tooth or a turn: an error of its sensor, or of a gear.
 
-    v = u + sine sin(w) + cosine cos(w) + second_sine sin(2 w) + second_cosine cos(2 w), w = 2 pi u / period, the model
-    sees v: the first two harmonics, as of harmonic drives, whose error repeats itself twice a turn [1].
+    v = u + sine s + cosine c, s = sin w + second sin 2 w + second_aside cos 2 w, w = 2 pi u / period, c as s
+    with either harmonic a quarter of its period earlier, the model sees v: as of harmonic drives, whose error repeats
+    itself twice a turn [1]. Ours: the second harmonic is told over the first, and is the smaller.
 
     The error has a minimum at every line of the residual along the input, so a fit should begin at what `starts`
     proposes.

@@ -42,9 +42,10 @@ def _quadrature(inner: Response, u: Array, hiding: Hiding) -> Array:
 class OutputCyclicError(Effect):
     """The output's sensor has an error that repeats itself along its scale, once a line, a tooth or a fringe.
 
-    y = x + sine sin(w) + cosine cos(w) + second_sine sin(2 w) + second_cosine cos(2 w), w = 2 pi x / period, x the
-    response: the first and second order errors of interferometers and encoders, whose signals have offsets, unequal
-    gains and a wrong phase [1, 2].
+    y = x + sine s + cosine c, s = sin w + second sin 2 w + second_aside cos 2 w, w = 2 pi x / period, c as s
+    with either harmonic a quarter of its period earlier, x the response: the first and second order errors of
+    interferometers and encoders, whose signals have offsets, unequal gains and a wrong phase [1, 2]. Ours: the second
+    is told over the first, and is the smaller.
 
     The error has a minimum at every line of the residual along the output, so a fit should begin at what `starts`
     proposes.

@@ -7,7 +7,6 @@ from collections.abc import Mapping
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Part
-from hysteresis_plugins.effects._ripple import AMPLITUDES
 
 
 def ripple_at(p: Array, x: float) -> float:
@@ -18,5 +17,6 @@ def ripple_at(p: Array, x: float) -> float:
 
 
 def part_of(p: Mapping[str, float]) -> Part | None:
-    amplitudes = tuple(p[name] for name in AMPLITUDES)
-    return Part((2.0 * math.pi / p["period"], *amplitudes)) if any(amplitudes) else None
+    first = complex(p["sine"], p["cosine"])
+    second = first * complex(p["second"], p["second_aside"])
+    return Part((2.0 * math.pi / p["period"], first.real, first.imag, second.real, second.imag)) if first else None

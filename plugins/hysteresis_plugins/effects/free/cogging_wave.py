@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
@@ -51,17 +51,20 @@ class CoggingWave(FreeForm):
         return Cogging().inapplicable(records)
 
     def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """The clearest periods along the input."""
-        silent = dict.fromkeys(WAVES, 0.0)
-        return [
-            {**silent, "period": line["period"], **dict(zip(WAVES, (line[one] for one in AMPLITUDES), strict=False))}
-            for line in Cogging().starts(records, residuals)
-        ]
+        """The clearest periods along the input, of the clearest one also twice as long."""
+        lines = Cogging().starts(records, residuals)
+        return [*(_begun(one, 1) for one in lines), *(_begun(one, 2) for one in lines[:1])]
 
     def curve(self, p: Any) -> Curve:
         """Over two periods."""
         given = np.linspace(0.0, 2.0 * p.period, POINTS)
         return Curve(given, _wave(given, p), "input", "part added to the output", "{input}", "{output}")
+
+
+def _begun(line: Mapping[str, float], order: int) -> dict[str, float]:
+    """With the first harmonic of a line of `cogging` as the harmonic of this order."""
+    amplitudes = {f"{name}{order}": line[name] for name in AMPLITUDES}
+    return {**dict.fromkeys(WAVES, 0.0), "period": order * line["period"], **amplitudes}
 
 
 def _wave(course: Array, p: Any) -> Array:
