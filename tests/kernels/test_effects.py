@@ -8,6 +8,7 @@ from hysteresis_bench.kernels.effects.asymmetry import bend
 from hysteresis_bench.kernels.effects.curve_in_time import add, products, scale_and_add
 from hysteresis_bench.kernels.effects.fatigue import fade
 from hysteresis_bench.kernels.effects.saturation import saturate
+from hysteresis_bench.kernels.ripple import add_ripple
 from hysteresis_bench.kernels.sinusoid import add_sinusoid
 from hysteresis_bench.signals import read_only
 
@@ -112,3 +113,20 @@ def test_what_is_not_overwritten_stays(y):
     products(y, course)
     assert np.array_equal(y, kept)
     assert np.array_equal(course, np.ones(300))
+
+
+@pytest.mark.parametrize("along", ["the input", "columns of their own", "the response itself"])
+def test_a_ripple_is_its_harmonics(along):
+    rng = np.random.default_rng(5)
+    y, period = rng.normal(size=(40, 9)), rng.uniform(0.05, 2.0, 9)
+    waves = rng.normal(size=(6, 9))
+    waves[:, 4] = 0.0
+    course = {"the input": rng.normal(size=(40, 1)), "columns of their own": 3.0 * rng.normal(size=(40, 9))}.get(
+        along, y
+    )
+    w = 2.0 * np.pi * course / period
+    known = y + sum(waves[2 * n] * np.sin((n + 1) * w) + waves[2 * n + 1] * np.cos((n + 1) * w) for n in range(3))
+    found = y.copy()
+    add_ripple(found, found if along == "the response itself" else course, period, waves)
+    np.testing.assert_allclose(found, known, atol=1e-12)
+    np.testing.assert_array_equal(found[:, 4], y[:, 4])

@@ -45,21 +45,14 @@ def parameters(unit: str, course: str) -> tuple[Parameter, ...]:
     )
 
 
-def ripple(course: Array, p: Any) -> Array:
-    """sine s + cosine c with s = sin w + second sin 2 w + second_aside cos 2 w, c the same a quarter of a period of
-    either harmonic earlier, w = 2 pi course / period;  course : (samples, columns)"""
-    turn = (2.0 * np.pi / p.period) * course
-    sine, cosine = np.sin(turn), np.cos(turn)
-    twice, twice_earlier = 2.0 * sine * cosine, 1.0 - 2.0 * sine * sine
-    s = sine + p.second * twice + p.second_aside * twice_earlier
-    c = cosine + p.second * twice_earlier - p.second_aside * twice
-    added: Array = p.sine * s + p.cosine * c
-    return added
+def waves(p: Any) -> Array:
+    """The amplitudes of sin w, cos w, sin 2 w and cos 2 w, (4, columns), w = 2 pi course / period.
 
-
-def is_flat(p: Any) -> bool:
-    """Is nothing added, by any column?"""
-    return not (np.any(p.sine) or np.any(p.cosine))
+    What is added is sine s + cosine c, s = sin w + second sin 2 w + second_aside cos 2 w, c the same a quarter of a
+    period of either harmonic earlier.
+    """
+    twice = p.sine * p.second - p.cosine * p.second_aside, p.sine * p.second_aside + p.cosine * p.second
+    return np.stack([p.sine, p.cosine, *twice])
 
 
 def box(own: tuple[Parameter, ...], courses: Sequence[Array], most: float) -> tuple[Parameter, ...]:

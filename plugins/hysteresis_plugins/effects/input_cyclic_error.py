@@ -60,9 +60,13 @@ class InputCyclicError(Effect):
     parameters = _ripple.parameters("{input}", "{input}")
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        if _ripple.is_flat(p):  # the model sees the very input, still shared by the swarm
+        from hysteresis_bench.kernels.ripple import add_ripple
+
+        if not (np.any(p.sine) or np.any(p.cosine)):  # the model sees the very input, still shared by the swarm
             return inner(signal)
-        return inner(signal.with_input(signal.input + _ripple.ripple(signal.input, p)))
+        acting = np.repeat(signal.input, p.sine.size // signal.input.shape[1], axis=1)
+        add_ripple(acting, signal.input, p.period, _ripple.waves(p))
+        return inner(signal.with_input(acting))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Amplitudes up to a thirtieth of the input's range: with the longest period that nearly turns it back."""

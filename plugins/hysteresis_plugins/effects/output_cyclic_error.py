@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Effect, HiddenForm, Hiding, Response
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects import _ripple
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import output_span
 
 HIDDEN = 0.06
@@ -61,8 +62,11 @@ class OutputCyclicError(Effect):
     parameters = _ripple.parameters("{output}", "{output}")
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        output = inner(signal)
-        return output if _ripple.is_flat(p) else output + _ripple.ripple(output, p)
+        from hysteresis_bench.kernels.ripple import add_ripple
+
+        output = own(inner(signal), signal)
+        add_ripple(output, output, p.period, _ripple.waves(p))
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Amplitudes up to a tenth of the output's range."""

@@ -12,13 +12,14 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.free_forms import Curve, FreeForm
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
+from hysteresis_plugins.effects._in_place import own
 from hysteresis_plugins.effects._ranges import output_span
 from hysteresis_plugins.effects._ripple import AMPLITUDES
 from hysteresis_plugins.effects.cogging import Cogging
 from hysteresis_plugins.effects.free._spline import POINTS
 
-HARMONICS = 6
-WAVES = tuple(f"{name}{order}" for order in range(1, HARMONICS + 1) for name in ("sine", "cosine"))
+ORDERS = tuple(range(1, 7))
+WAVES = tuple(f"{name}{n}" for n in ORDERS for name in ("sine", "cosine"))
 
 
 @dataclass(frozen=True)
@@ -39,8 +40,11 @@ class CoggingWave(FreeForm):
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        output = inner(signal)
-        return output + _wave(signal.input, p) if any(np.any(getattr(p, one)) for one in WAVES) else output
+        from hysteresis_bench.kernels.ripple import add_ripple
+
+        output = own(inner(signal), signal)
+        add_ripple(output, signal.input, p.period, np.stack([getattr(p, one) for one in WAVES]))
+        return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Periods as of `cogging`; amplitudes up to a fifth of the output's range."""
@@ -58,22 +62,14 @@ class CoggingWave(FreeForm):
     def curve(self, p: Any) -> Curve:
         """Over two periods."""
         given = np.linspace(0.0, 2.0 * p.period, POINTS)
-        return Curve(given, _wave(given, p), "input", "part added to the output", "{input}", "{output}")
+        turn = 2.0 * np.pi * given / p.period
+        parts = [
+            getattr(p, f"sine{n}") * np.sin(n * turn) + getattr(p, f"cosine{n}") * np.cos(n * turn) for n in ORDERS
+        ]
+        return Curve(given, np.sum(parts, axis=0), "input", "part added to the output", "{input}", "{output}")
 
 
 def _begun(line: Mapping[str, float], order: int) -> dict[str, float]:
     """With the first harmonic of a line of `cogging` as the harmonic of this order."""
     amplitudes = {f"{name}{order}": line[name] for name in AMPLITUDES}
     return {**dict.fromkeys(WAVES, 0.0), "period": order * line["period"], **amplitudes}
-
-
-def _wave(course: Array, p: Any) -> Array:
-    """What is added; course : (samples, columns). Harmonics follow from the two before."""
-    turn = (2.0 * np.pi / p.period) * course
-    sine, cosine = np.sin(turn), np.cos(turn)
-    before, here, twice = (np.zeros_like(turn), np.ones_like(turn)), (sine, cosine), 2.0 * cosine
-    added: Array = np.zeros_like(turn)
-    for order in range(1, HARMONICS + 1):
-        added = added + getattr(p, f"sine{order}") * here[0] + getattr(p, f"cosine{order}") * here[1]
-        before, here = here, (twice * here[0] - before[0], twice * here[1] - before[1])
-    return added
