@@ -141,7 +141,7 @@ class Effect(ABC):
     linear: ClassVar[tuple[str, ...]] = ()
     """Parameters in which the output is affine, jointly with what is wrapped: amplitudes of what is merely added."""
     estimates: ClassVar[int] = 0
-    """How many values it estimates anew on every record, beside its parameters."""
+    """Values that it estimates anew on every record, beside its parameters."""
     accuracy: ClassVar[float] = 1e-9
     """By how much more samples of the same line may change the answer, of signals with ranges of about 1."""
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = ()
@@ -169,8 +169,8 @@ class Effect(ABC):
         """The constant that the effect adds to this record's output, (swarm,): relative errors leave it out."""
         return np.zeros(simulated.shape[1])
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
-        """Where its parameters may begin, if the box says little; residuals : (samples,), measured minus simulated."""
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]] | None:
+        """Where its parameters may begin; None: residuals, (samples,) measured minus simulated, show nothing of it."""
         return []
 
     def remembered(self, offsets: Sequence[float]) -> Effect:

@@ -76,7 +76,7 @@ def not_overlooked(problem: Problem, values: Array, searched: Callable[[Problem]
     proposed = [
         {f"{name}.{key}": value for key, value in proposal.items()}
         for name, effect in problem.system.effects
-        for proposal in effect.starts(problem.records, left)
+        for proposal in effect.starts(problem.records, left) or []
     ]
     starts = np.column_stack([point_of(problem, {**known, **others}) for others in ({}, *proposed)])
     points, squares = descend(problem, starts)

@@ -395,8 +395,17 @@ def test_a_cogging_wave_begins_with_the_lines_of_cogging_and_with_twice_the_long
     left = 0.1 * np.sin(2.0 * np.pi * made.input / 0.8 + 0.4)
     lines = registry.build("effects", "cogging").starts([made], [left])
     starts = registry.build("effects", "cogging-wave").starts([made], [left])
-    assert [one["period"] for one in starts] == [lines[0]["period"], lines[1]["period"], 2.0 * lines[0]["period"]]
-    assert (starts[2]["sine2"], starts[2]["cosine2"]) == (lines[0]["sine"], lines[0]["cosine"])
+    assert [one["period"] for one in starts] == [*(one["period"] for one in lines), 2.0 * lines[0]["period"]]
+    assert (starts[-1]["sine2"], starts[-1]["cosine2"]) == (lines[0]["sine"], lines[0]["cosine"])
+
+
+def test_no_ripple_is_seen_in_noise_nor_in_a_smooth_fault():
+    made = record()
+    noise = 0.01 * np.random.default_rng(7).standard_normal(made.input.size)
+    corner = np.maximum(np.abs(made.input - 0.5) - 2.5, 0.0)  # as of an output that is cut off
+    for name in ("cogging", "input-cyclic-error", "output-cyclic-error", "cogging-wave"):
+        assert registry.build("effects", name).starts([made], [noise]) is None
+        assert registry.build("effects", name).starts([made], [noise + 0.3 * corner]) is None
 
 
 def test_too_few_samples_resolve_no_ripple():

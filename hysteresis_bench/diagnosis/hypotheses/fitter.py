@@ -98,14 +98,17 @@ class Fitter:
     def extended(self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None) -> Hypothesis:
         """With one effect more, from several values of its own parameters.
 
-        other : further values of the known parameters from which to begin, such as those of a system in which
-        another effect stands in this one's place
+        other : further values of the known parameters to begin from, as of a system with another effect in its place
         """
         names = hypothesis.names | {name}
         problem = self.stack.problem(names)
         new = [p for p in problem.space.parameters if p.name not in hypothesis.values]
+        proposed = self._proposed(hypothesis, name)
+        if proposed is None:
+            off = {p.name: 0.5 * (p.lower + p.upper) if p.null is None else p.null for p in new}
+            return replace(hypothesis, names=names, values={**hypothesis.values, **off})
         linear = isinstance(self.stack.effect(name), FreeForm)  # or nearly so: one start will do
-        spread = [*grid(new)[: 1 if linear else None], *self._proposed(hypothesis, name)]
+        spread = [*grid(new)[: 1 if linear else None], *proposed]
         points = np.column_stack([point_of(problem, {**hypothesis.values, **values}) for values in spread])
         if new:
             points = points[:, self._promising(hypothesis, problem, points, hypothesis.values)]
@@ -217,11 +220,11 @@ class Fitter:
         ]
         return any(0.0 < width < DROWNED * self._input_noise for width in widths)
 
-    def _proposed(self, hypothesis: Hypothesis, name: str) -> list[dict[str, float]]:
-        """What the effect itself proposes, from the residuals."""
-        residuals = split(hypothesis.residuals, self.stack.records)
-        proposals = self.stack.effect(name).starts(self.stack.records, residuals)
-        return [{f"{name}.{key}": value for key, value in proposal.items()} for proposal in proposals]
+    def _proposed(self, hypothesis: Hypothesis, name: str) -> list[dict[str, float]] | None:
+        """What the effect itself proposes, from the residuals; None where they show nothing of it."""
+        records = self.stack.records
+        proposals = self.stack.effect(name).starts(records, split(hypothesis.residuals, records))
+        return proposals and [{f"{name}.{key}": value for key, value in one.items()} for one in proposals]
 
     def _promising(self, hypothesis: Hypothesis, problem: Problem, points: Array, following: Collection[str]) -> Array:
         """Columns that leave least once the `following` parameters have followed to first order, unlike each

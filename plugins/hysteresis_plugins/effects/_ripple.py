@@ -22,6 +22,13 @@ SAMPLES = 4.0
 DEGREE = 4
 """Of the smooth curve of the course that is taken out of residuals first, as it is no ripple."""
 
+PROMINENT = 2.0
+"""Times the gain at all lower frequencies down to half of its own, at least: what a smooth fault leaves falls, and has
+no line. Without it an output that is cut off had an error of its sensor beside the saturation."""
+
+CHANCE = 0.05
+"""Of a line in white noise, over all that are looked at."""
+
 BINS = 1024
 APART = 2.0
 """Cycles over the range between two proposals."""
@@ -78,15 +85,15 @@ def inapplicable(records: Sequence[Record], courses: Sequence[Array]) -> str:
 
 def proposals(
     courses: Sequence[Array], residuals: Sequence[Array], slopes: Sequence[Array] | None = None
-) -> list[dict[str, float]]:
-    """Values from which to fit: the two highest lines of the residuals along the course.
+) -> list[dict[str, float]] | None:
+    """Values from which to fit: the highest lines of the residuals along the course, two at the most; None without one.
 
     courses, residuals : (scored samples,) a record;  slopes : of the residual over what is added, 1 where not given
     """
     course, span = np.concatenate(list(courses)), _span(courses)
-    cycles = np.arange(LEAST, _resolved(courses), 0.25)
-    if not cycles.size:
-        return []
+    cycles = np.arange(0.5 * LEAST, _resolved(courses), 0.25)
+    if not cycles.size or cycles[-1] < LEAST:
+        return None
     x = (course - course.min()) / span
     weight = np.ones(x.size) if slopes is None else np.concatenate(list(slopes))
     left = _without_smooth(np.concatenate(list(residuals)), x, [one.size for one in courses])
@@ -94,11 +101,16 @@ def proposals(
     turns = 2.0 * np.pi * np.outer(cycles, (np.arange(BINS) + 0.5) / BINS)
     count, total = np.bincount(place, weight * weight, BINS), np.bincount(place, weight * left, BINS)
     gains = _gains(np.sin(turns), np.cos(turns), count, total)
-    found: list[float] = []
-    while len(found) < 2 and np.max(gains) > 0.0:
-        found.append(float(cycles[np.argmax(gains)]))
-        gains[np.abs(cycles - found[-1]) < APART] = 0.0
-    return [_amplitudes(course, left, weight, span / each) for each in found]
+    least = -2.0 * np.log(CHANCE / cycles.size) * float(np.mean(left**2))
+    lines = [k for k in range(cycles.size) if gains[k] > least and _prominent(cycles, gains, k)]
+    lines.sort(key=lambda k: -float(gains[k]))
+    others = [k for k in lines[1:] if abs(cycles[k] - cycles[lines[0]]) >= APART]
+    return [_amplitudes(course, left, weight, span / cycles[k]) for k in (*lines[:1], *others[:1])] or None
+
+
+def _prominent(cycles: Array, gains: Array, k: int) -> bool:
+    lower = gains[(cycles >= 0.5 * cycles[k]) & (cycles <= cycles[k] - 0.75 * APART)]
+    return bool(cycles[k] >= LEAST and gains[k] > PROMINENT * lower.max())
 
 
 def _without_smooth(left: Array, x: Array, sizes: Sequence[int]) -> Array:

@@ -80,6 +80,6 @@ class Cogging(Effect):
     def inapplicable(self, records: Sequence[Record]) -> str:
         return _ripple.inapplicable(records, [record.input for record in records])
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]] | None:
         """The clearest periods along the input."""
         return _ripple.proposals([record.input[record.scored] for record in records], residuals)

@@ -75,7 +75,7 @@ class InputCyclicError(Effect):
     def inapplicable(self, records: Sequence[Record]) -> str:
         return _ripple.inapplicable(records, [record.input for record in records])
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]] | None:
         """The clearest periods along the input; the steeper the response, the larger is what they leave."""
         courses = [record.input[record.scored] for record in records]
         responses = [record.measured - left for record, left in zip(records, residuals, strict=True)]

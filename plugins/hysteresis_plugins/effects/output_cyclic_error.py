@@ -76,7 +76,7 @@ class OutputCyclicError(Effect):
     def inapplicable(self, records: Sequence[Record]) -> str:
         return _ripple.inapplicable(records, [record.measured for record in records])
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]] | None:
         """The clearest periods along the output that the residuals leave to the response."""
         courses = [record.measured - left for record, left in zip(records, residuals, strict=True)]
         return _ripple.proposals(courses, residuals)

@@ -54,9 +54,11 @@ class CoggingWave(FreeForm):
     def inapplicable(self, records: Sequence[Record]) -> str:
         return Cogging().inapplicable(records)
 
-    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]]:
+    def starts(self, records: Sequence[Record], residuals: Sequence[Array]) -> list[dict[str, float]] | None:
         """The clearest periods along the input, of the clearest one also twice as long."""
         lines = Cogging().starts(records, residuals)
+        if lines is None:
+            return None
         return [*(_begun(one, 1) for one in lines), *(_begun(one, 2) for one in lines[:1])]
 
     def curve(self, p: Any) -> Curve:
