@@ -37,6 +37,9 @@ SURELY = 0.89
 SMALL = 1e-4
 """The same share, up to which the first terms of the series in it and of its inverse are enough: the next is 1e-13."""
 
+LEAST_DRIVE = 1e-250
+"""Below it the drive counts as 0: powers of what it makes underflow, and no step is small enough for the tolerance."""
+
 FAR = 1e8
 """The same share, from which on the drive is left out: h runs away, or comes back from there."""
 
@@ -101,6 +104,8 @@ def integrated(g: float, drive: float, along: float, against: float, n: float, w
     by Dormand and Prince's 5(4) pair with adaptive steps elsewhere; to a relative error of about 1e-11."""
     left = width
     step = width
+    if drive < LEAST_DRIVE:
+        drive = 0.0
     while left > 0.0:
         k1 = slope(g, drive, along, against, n)
         if abs(g) >= bound and k1 * g >= 0.0:

@@ -65,6 +65,33 @@ def test_any_smoothness_comes_back(drawn, steps, n):
     assert round_trip(invertible(drawn, n), v) < 3e-8 * max(1.0, np.abs(v).max())
 
 
+def test_a_loop_that_is_next_to_nothing_comes_back_too():
+    """Powers of so small a h underflow: the integration had not ended."""
+    inverse = BoucWenInverse(2.2250738585e-313, 3.6775601447935964, 4.834569641451292, 0.05, 3.3333765731099363)
+    v = (
+        np.array(
+            [
+                -9.785772955198066,
+                -27.013347274830892,
+                0.049524651259684305,
+                0.049524651259684305,
+                -21.64404306680295,
+                12.169206156384021,
+                0.0,
+                1.101907805489226e-213,
+                6.0,
+                6.0,
+                -19.300266060302462,
+                0.5,
+                6.103515625e-05,
+                5.93586473214717e-257,
+            ]
+        )
+        / 10
+    )
+    assert round_trip(inverse, v) < 1e-12
+
+
 @given(parameters, coarse_steps)
 @settings(max_examples=60, deadline=None)
 def test_inputs_come_back_too(drawn, steps):
