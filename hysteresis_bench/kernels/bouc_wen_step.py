@@ -37,11 +37,11 @@ SURELY = 0.89
 SMALL = 1e-4
 """The same share, up to which the first terms of the series in it and of its inverse are enough: the next is 1e-13."""
 
-LEAST_DRIVE = 1e-250
-"""Below it the drive counts as 0: powers of what it makes underflow, and no step is small enough for the tolerance."""
-
 FAR = 1e8
 """The same share, from which on the drive is left out: h runs away, or comes back from there."""
+
+LEAST_DRIVE = 1e-250
+"""Below it the drive counts as 0: powers of what it makes underflow, and no step is small enough for the tolerance."""
 
 
 @njit(cache=True, error_model="numpy")

@@ -9,8 +9,8 @@ from hysteresis_bench.fit.checks.behaviour import PLACES
 from hysteresis_bench.fit.objective import Problem
 
 SAME = 1e-6
-"""Share of what the effect adds that the model may leave out: rounding leaves 1e-12, the nearest effect that is
-another 1e-2. Halved or doubled it tells the same."""
+"""Share of what the effect adds that the model may leave out: rounding leaves 1e-13, the nearest effect that is
+another more than 1e-2. Halved or doubled it tells the same."""
 
 
 def is_redundant(problem: Problem, name: str) -> bool:

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Hiding
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record
 from hysteresis_plugins.effects._ranges import motionless
@@ -50,6 +51,16 @@ def parameters(unit: str, course: str) -> tuple[Parameter, ...]:
         Parameter("second_aside", -most, most, meaning=f"{over}, a quarter of its period earlier"),
         Parameter("period", 0.01, 1.0, course, "log", meaning="after which it repeats itself", positive=True),
     )
+
+
+def hidden_periods(hiding: Hiding) -> float:
+    """Six to fourteen, from the lowest to the highest."""
+    return 6.0 + 8.0 * hiding.random[0]
+
+
+def hidden(course: Array, largest: float, hiding: Hiding) -> Array:
+    """w = 2 pi course / period of made data;  largest : of the course, to either side"""
+    return np.asarray(np.pi * hidden_periods(hiding) * course / largest + 2.0 * np.pi * hiding.random[1])
 
 
 def waves(p: Any) -> Array:

@@ -20,24 +20,21 @@ HIDDEN = 0.1
 """Of the largest response, the amplitude in made data at full strength."""
 
 
-def _turn(u: Array, hiding: Hiding) -> Array:
-    """Six to fourteen periods from the lowest to the highest drive."""
-    return np.asarray(np.pi * (6.0 + 8.0 * hiding.random[0]) * u / hiding.amplitude + 2.0 * np.pi * hiding.random[1])
-
-
 def _sinusoid(inner: Response, u: Array, hiding: Hiding) -> Array:
-    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.sin(_turn(u, hiding))
+    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.sin(_ripple.hidden(u, hiding.amplitude, hiding))
 
 
 def _skewed(inner: Response, u: Array, hiding: Hiding) -> Array:
     """Teeth that are steeper on one side."""
-    turn = _turn(u, hiding)
+    turn = _ripple.hidden(u, hiding.amplitude, hiding)
     return inner(u) + HIDDEN * hiding.strength * hiding.top * np.sin(turn) / (1.0 + 0.5 * np.cos(turn))
 
 
 def _detents(inner: Response, u: Array, hiding: Hiding) -> Array:
     """A triangle: between two detents the force is straight."""
-    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.arcsin(np.sin(_turn(u, hiding)))
+    return inner(u) + HIDDEN * hiding.strength * hiding.top * np.arcsin(
+        np.sin(_ripple.hidden(u, hiding.amplitude, hiding))
+    )
 
 
 @dataclass(frozen=True)

@@ -22,18 +22,13 @@ SIDE = 3
 """Samples to either side over which the slope of the loop is taken."""
 
 
-def _turn(u: Array, hiding: Hiding) -> Array:
-    """Six to fourteen periods from the lowest to the highest drive."""
-    return np.asarray(np.pi * (6.0 + 8.0 * hiding.random[0]) * u / hiding.amplitude + 2.0 * np.pi * hiding.random[1])
-
-
 def _sinusoid(inner: Response, u: Array, hiding: Hiding) -> Array:
-    return inner(u + HIDDEN * hiding.strength * hiding.amplitude * np.sin(_turn(u, hiding)))
+    return inner(u + HIDDEN * hiding.strength * hiding.amplitude * np.sin(_ripple.hidden(u, hiding.amplitude, hiding)))
 
 
 def _run_out(inner: Response, u: Array, hiding: Hiding) -> Array:
     """A disc that is off its centre: the angle that is read is an arc tangent's."""
-    turn = _turn(u, hiding)
+    turn = _ripple.hidden(u, hiding.amplitude, hiding)
     off = np.arctan2(0.5 * np.sin(turn), 1.0 + 0.5 * np.cos(turn))
     return inner(u + HIDDEN * hiding.strength * hiding.amplitude * off)
 

@@ -20,21 +20,16 @@ HIDDEN = 0.06
 """Of the largest response, the amplitude in made data at full strength."""
 
 
-def _turn(y: Array, hiding: Hiding) -> tuple[Array, float]:
-    """Six to fourteen fringes from the lowest to the highest response, and the length of one over 2 pi."""
-    period = 2.0 * abs(hiding.top) / (6.0 + 8.0 * hiding.random[0])
-    return np.asarray(2.0 * np.pi * (y / period + hiding.random[1])), period / (2.0 * np.pi)
-
-
 def _sinusoid(inner: Response, u: Array, hiding: Hiding) -> Array:
     y = inner(u)
-    return y + HIDDEN * hiding.strength * abs(hiding.top) * np.sin(_turn(y, hiding)[0])
+    return y + HIDDEN * hiding.strength * abs(hiding.top) * np.sin(_ripple.hidden(y, abs(hiding.top), hiding))
 
 
 def _quadrature(inner: Response, u: Array, hiding: Hiding) -> Array:
     """Heydemann's: the two signals of an interferometer have offsets and unequal gains, and are not at right angles."""
     y, s = inner(u), hiding.strength
-    turn, length = _turn(y, hiding)
+    turn = _ripple.hidden(y, abs(hiding.top), hiding)
+    length = abs(hiding.top) / (np.pi * _ripple.hidden_periods(hiding))  # of a fringe, over 2 pi
     first, second = np.cos(turn) + 0.3 * s, (1.0 - 0.3 * s) * np.sin(turn + 0.2 * s) - 0.2 * s
     return np.asarray(y + length * np.angle((first + 1j * second) * np.exp(-1j * turn)))
 
