@@ -62,8 +62,8 @@ class CoggingWave(FreeForm):
         return [*(_begun(one, 1) for one in lines), *(_begun(one, 2) for one in lines[:1])]
 
     def curve(self, p: Any) -> Curve:
-        """Over two periods."""
-        given = np.linspace(0.0, 2.0 * p.period, POINTS)
+        """Over two periods, finely enough for the last harmonic."""
+        given = np.linspace(0.0, 2.0 * p.period, 4 * POINTS)
         turn = 2.0 * np.pi * given / p.period
         parts = [
             getattr(p, f"sine{n}") * np.sin(n * turn) + getattr(p, f"cosine{n}") * np.cos(n * turn) for n in ORDERS
