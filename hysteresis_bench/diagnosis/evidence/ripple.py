@@ -1,5 +1,5 @@
 """Does a residual repeat itself along the input, or along the output? So do the errors of gears, of encoders and of
-interferometers [1], and the cogging of motors: once a tooth, a line or a fringe, whatever the time.
+interferometers [1], and the cogging of motors.
 
 [1] P. L. M. Heydemann, Appl. Opt. 20 (1981) 3382.
 """
@@ -12,27 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
+from hysteresis_bench import periodicity
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.evidence.autocorrelated import FTest, constants, f_test, left_over
+from hysteresis_bench.diagnosis.evidence.autocorrelated import FTest, f_test
 from hysteresis_bench.diagnosis.evidence.spectrum import largest_of
-
-LEAST, MOST = 5.0, 128.0
-"""Cycles over the range that are looked for: fewer are a smooth curve's."""
-
-DEGREE = 4
-"""Of the smooth curve that is no ripple."""
-
-SAMPLES = 4.0
-"""A cycle, at least, at the median speed."""
-
-PROMINENT = 2.0
-"""Times the power at all lower frequencies down to half of its own, at least: the spectrum of a smooth fault falls, and
-has no line. With half and with twice of it the same was told of 162 made residuals: a ripple of all 18 that had one,
-and of no other."""
-
-BINS = 1024
-WIDTH = 3
-"""Half-cycles from a line within which its own power lies."""
 
 
 @dataclass(frozen=True)
@@ -50,26 +33,14 @@ def ripple(residuals: Sequence[Array], courses: Sequence[Array]) -> Ripple | Non
 
     residuals : (samples,) a record;  courses : of what it may repeat itself along, as long
     """
-    joined = np.concatenate(list(courses))
-    low, span = float(joined.min()), float(np.ptp(joined))
-    steps = np.abs(np.concatenate([np.diff(course) for course in courses]))
-    if span <= 0.0 or not steps.any():
+    found = periodicity.lines(courses, residuals)
+    if found is None:
         return None
-    fastest = min(MOST, span / (SAMPLES * float(np.median(steps[steps > 0.0]))))
-    if fastest < 2.0 * LEAST:
-        return None
-    x = [(course - low) / span for course in courses]
-    smooth = [legvander(2.0 * part - 1.0, DEGREE)[:, 1:] for part in x]
-    left = left_over(
-        np.concatenate(list(residuals)), np.column_stack([np.concatenate(constants(x)), np.vstack(smooth)])
-    )
-    binned = np.bincount((np.concatenate(x) * (BINS - 1)).astype(int), left, BINS)
-    power = np.abs(np.fft.rfft(binned, 2 * BINS)) ** 2  # at every half of a cycle
-    halves = np.arange(int(2 * LEAST), int(2 * fastest) + 1)
-    lines = [k for k in halves if power[k] > PROMINENT * power[k // 2 : k - WIDTH + 1].max()]
-    if not lines:
+    if not found.cycles.size:
         return Ripple(FTest(0.0, 1.0, 0.0), 0.0)
-    largest = max(lines, key=lambda k: float(power[k]))
-    angles = [np.pi * largest * part for part in x]
-    found = f_test(residuals, [np.column_stack([np.sin(part), np.cos(part)]) for part in angles], smooth)
-    return Ripple(FTest(found.statistic, largest_of(halves.size, found.p), found.share), largest / 2.0)
+    clearest, low, span = float(found.cycles[0]), min(course.min() for course in courses), periodicity.span(courses)
+    x = [(course - low) / span for course in courses]
+    smooth = [legvander(2.0 * part - 1.0, periodicity.DEGREE)[:, 1:] for part in x]
+    angles = [2.0 * np.pi * clearest * part for part in x]
+    test = f_test(residuals, [np.column_stack([np.sin(part), np.cos(part)]) for part in angles], smooth)
+    return Ripple(FTest(test.statistic, largest_of(found.looked_at, test.p), test.share), clearest)
