@@ -17,7 +17,7 @@ def torture():
 
 
 def test_an_ill_treated_study_is_the_one_left_in_peace(torture, tmp_path):
-    bench = torture.Bench(tmp_path, variants=1, trials=1, budget=1500, timeout=10.0)
+    bench = torture.Bench(tmp_path, variants=1, trials=1, budget=1500, timeout=6.0)
     assert "24 trials, 16 bad ones of 16 kinds" in torture.bad_trials(bench)
     assert "SIGKILLs of the runner" in torture.runner_kills(bench, 2, longest=6.0)
     assert "SIGKILLs of workers" in torture.worker_kills(bench, 1, longest=1.0)
