@@ -92,7 +92,7 @@ def _without_smooth(left: Array, x: Array, sizes: Sequence[int]) -> Array:
 
 
 def _gains(cycles: Array, count: Array, total: Array) -> Array:
-    """By how much a wave at each frequency lowers the sum of squares;  count, total : (bins,) of weights and residuals"""
+    """By how much a wave at each frequency lowers the sum of squares;  count, total : (bins,) as in `lines`"""
     turns = 2.0 * np.pi * np.outer(cycles, (np.arange(BINS) + 0.5) / BINS)
     sine, cosine = np.sin(turns), np.cos(turns)
     ss, cc, sc = (sine * sine) @ count, (cosine * cosine) @ count, (sine * cosine) @ count

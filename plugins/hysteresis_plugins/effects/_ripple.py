@@ -60,7 +60,7 @@ def waves(p: Any) -> Array:
 
 
 def box(own: tuple[Parameter, ...], courses: Sequence[Array], most: float) -> tuple[Parameter, ...]:
-    """From `periodicity.LEAST` periods over the range of the course to as many as its samples resolve; amplitudes up to `most`."""
+    """From the fewest periods over the range of the course to what its samples resolve; amplitudes up to `most`."""
     sine, cosine, *shares, period = own
     span = periodicity.span(courses) or 1.0
     finest = max(periodicity.resolved(courses), 2.0 * periodicity.LEAST)

@@ -87,7 +87,7 @@ class PeriodicDisturbance(Effect):
     parameters = (
         Parameter("cosine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude in phase with t = 0"),
         Parameter("sine", -1.0, 1.0, "{output}", null=0.0, meaning="amplitude a quarter period later"),
-        Parameter("frequency", 0.1, 100.0, "1/{time}", meaning="of the disturbance, or of its alias where it is faster than half the sampling rate"),
+        Parameter("frequency", 0.1, 100.0, "1/{time}", meaning="of the disturbance, or the alias of a faster one"),
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
