@@ -24,7 +24,7 @@ FLOORS = [
     ["registry"],
     ["declarations"],
     ["contracts", "free_forms", "data"],
-    ["signals", "parameters", "periodicity"],
+    ["signals", "parameters"],
     ["errors", "kernels"],
     ["arrays", "progress"],
 ]
@@ -60,7 +60,7 @@ def test_imports_go_downward_only():
 
 
 def test_plugins_know_the_contracts_and_nothing_above():
-    allowed = {"arrays", "contracts", "free_forms", "parameters", "periodicity", "signals", "kernels"}
+    allowed = {"arrays", "contracts", "free_forms", "parameters", "signals", "kernels"}
     folder = Path(__import__("hysteresis_plugins").__file__).parent
     strangers = {
         f"{path.name} -> {name}" for path in folder.rglob("*.py") for name in imported(path) if name not in allowed

@@ -12,10 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.legendre import legvander
 
-from hysteresis_bench import periodicity
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.autocorrelated import FTest, f_test
 from hysteresis_bench.diagnosis.evidence.spectrum import largest_of
+from hysteresis_bench.kernels import periodicity
 
 
 @dataclass(frozen=True)

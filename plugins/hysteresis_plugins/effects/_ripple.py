@@ -7,9 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench import periodicity
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Hiding
+from hysteresis_bench.kernels import periodicity
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record
 from hysteresis_plugins.effects._ranges import motionless
