@@ -107,11 +107,6 @@ def _slow_clock(one: Made, rng: Generator) -> Array:
     return np.interp(1.004 * TIME, TIME, one.y)
 
 
-def _dead_zone(one: Made, rng: Generator) -> Array:
-    """Of the sensor, about its zero."""
-    return np.sign(one.y) * np.maximum(np.abs(one.y) - 0.04 * one.span, 0.0)
-
-
 def _sticking(one: Made, rng: Generator) -> Array:
     """The sensor stays where it is until it is off by a little."""
     out = one.y.copy()
@@ -154,7 +149,6 @@ EFFECTS: dict[str, Form] = {
     "gain with rate": _gain_with_rate,
     "beating hum": _beating_hum,
     "slow clock": _slow_clock,
-    "dead zone": _dead_zone,
     "sticking": _sticking,
     "growing clearance": _growing_clearance,
     "wandering zero": _wandering_zero,

@@ -51,6 +51,48 @@ def test_a_stop_below_is_one_above_upside_down():
     )
 
 
+def test_a_dead_zone_lets_through_what_is_beyond_it_and_leaks_the_rest():
+    signal = record().signal
+    beyond = np.where(DRIVE > 1.0, DRIVE - 1.0, np.minimum(DRIVE, 0.0))
+    sharp = {"half_width": 0.5, "centre": 0.5, "rounding": 0.0}
+    np.testing.assert_allclose(applied("input-dead-zone", signal, share=1.0, **sharp), 2.0 * beyond, atol=1e-14)
+    leaking = applied("input-dead-zone", signal, share=0.8, **sharp)
+    np.testing.assert_allclose(leaking, 1.6 * beyond + 0.4 * DRIVE, atol=1e-14)
+    deaf = np.where(2.0 * DRIVE > 1.0, 2.0 * DRIVE - 1.0, np.where(2.0 * DRIVE < -1.0, 2.0 * DRIVE + 1.0, 0.0))
+    found = applied("output-dead-zone", signal, share=1.0, half_width=1.0, centre=0.0, rounding=0.0)
+    np.testing.assert_allclose(found, deaf, atol=1e-14)
+
+
+@pytest.mark.parametrize("rounding", [0.0, 0.3])
+def test_a_dead_zone_aside_leaves_zero_where_it_is(rounding):
+    drive = np.array([0.0, 0.5, -0.5])
+    aside = {"share": 1.0, "half_width": 0.4, "centre": 2.0, "rounding": rounding}
+    y = applied("output-dead-zone", Signal(np.arange(3.0), drive[:, None]), **aside)
+    assert y[0] == 0.0
+    np.testing.assert_allclose(y, 2.0 * drive, atol=0.1 * rounding)
+
+
+def test_a_rounded_dead_zone_is_odd_and_ends_in_the_straight_ways_of_a_sharp_one():
+    drive = np.linspace(-100.0, 100.0, 2001)
+    signal, half, width = Signal(drive, drive[:, None]), 0.5, 0.2
+    y = 0.5 * applied("input-dead-zone", signal, share=1.0, half_width=half, centre=0.0, rounding=width)
+    np.testing.assert_allclose(y, -y[::-1], atol=1e-12)
+    assert y[-1] == pytest.approx(100.0 - half, abs=1e-5)
+    slope = np.gradient(y, drive)[1000]
+    assert slope == pytest.approx(1.0 - half / np.hypot(half, width), abs=0.02)
+    assert np.all(np.diff(y) > 0.0)
+
+
+def test_the_search_for_a_dead_zone_begins_about_zero_or_about_the_middle():
+    left = [np.zeros(TIME.size)]
+    for name in ("input-dead-zone", "output-dead-zone"):
+        effect = registry.build("effects", name)
+        assert {start["centre"] for start in effect.starts([record()], left)} == {0.0}
+        far = record(drive=DRIVE + 40.0)
+        low, high = box(name, far)["centre"]
+        assert {start["centre"] for start in effect.starts([far], left)} == {0.5 * (low + high)}
+
+
 @pytest.mark.parametrize(
     ("name", "side"), [("stop-above", np.minimum), ("stop-below", lambda x, low: np.maximum(x, -low))]
 )

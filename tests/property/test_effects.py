@@ -11,7 +11,7 @@ from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
 
 NAMES = registry.names("effects")
-RATE_INDEPENDENT = ("asymmetry", "backlash", "bias", "fatigue", "saturation")
+RATE_INDEPENDENT = ("asymmetry", "backlash", "bias", "fatigue", "input-dead-zone", "output-dead-zone", "saturation")
 TIME_INVARIANT = (
     *("creep", "droop", "input-lag", "output-lag", "resonance", "transport-delay"),
     *("second-order-lag", "second-order-input-lag"),
