@@ -21,9 +21,6 @@ WIDEST = 0.4
 INSIDE = 0.2
 """Of the range, from either end, where no centre is looked for: a dead zone at an end is a saturation."""
 
-NARROWEST = 1e-2
-"""Half-width, in ranges: with a smaller share it stands for a narrower one as well."""
-
 SHARP, ROUND = 1e-3, 0.125
 """Width of the edges' rounding, in ranges."""
 
@@ -74,9 +71,9 @@ class InputDeadZone(Effect):
     v = u - share (held(u - centre) - held(-centre)), held(d) = min(max(d, -half_width), half_width); the model sees v.
     Unlike `backlash` it has no memory. Ours: about any centre, so that one side may be wider than the other, or all of
     it lie aside, and 0 stays 0; of less than the share 1 something leaks through; the edges are rounded to hyperbolas,
-    held(d) = (|d + half_width| - |d - half_width|) / 2 with sqrt(x² + rounding²) for |x|. As of `stop-above`, the box
-    of the share goes a quarter beyond 1, so that a dead zone that lets nothing through does not lie at its edge, and
-    that of the rounding is logarithmic and ends above its null 0.
+    held(d) = (|d + half_width| - |d - half_width|) / 2 with sqrt(x² + rounding²) for |x|. The box of the share begins
+    at a half, as less is a bend (an output that is cut off had got one), and goes a quarter beyond 1, so that a dead
+    zone that lets nothing through does not lie at its edge; that of the rounding ends above its null 0.
 
     [1] G. Tao, P. V. Kokotovic, Adaptive Control of Systems with Actuator and Sensor Nonlinearities, Wiley (1996).
     """
@@ -86,14 +83,14 @@ class InputDeadZone(Effect):
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_overlapped, _one_sided)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_rounded, _leaking)
     parameters = (
-        Parameter("share", 0.0, 1.25, null=0.0, meaning="of the motion within the dead zone that does not pass"),
-        Parameter("half_width", 1e-2, 1.0, "{input}", "log", meaning="of the dead zone", positive=True),
+        Parameter("share", 0.5, 1.25, meaning="of the motion within the dead zone that does not pass"),
+        Parameter("half_width", 0.0, 1.0, "{input}", null=0.0, meaning="of the dead zone"),
         Parameter("centre", -1.0, 1.0, "{input}", meaning="of the dead zone"),
         Parameter("rounding", 1e-3, 1.0, "{input}", "log", null=0.0, meaning="width over which its edges are rounded"),
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
-        if not np.any(p.share):  # the model sees the very input, still shared by the swarm
+        if not np.any(p.half_width):  # the model sees the very input, still shared by the swarm
             return inner(signal)
         return inner(signal.with_input(signal.input - _within(signal.input, p)))
 
@@ -131,7 +128,7 @@ class OutputDeadZone(Effect):
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = own(inner(signal), signal)
-        if np.any(p.share):
+        if np.any(p.half_width):
             output -= _within(output, p)
         return output
 
@@ -165,7 +162,7 @@ def _box(own_parameters: tuple[Parameter, ...], courses: Sequence[Array], span: 
     edge, span = INSIDE * (high - low) or -1.0, span or 1.0  # a course that never moves has a box as well
     return (
         share,
-        half_width.within(NARROWEST * span, WIDEST * span),
+        half_width.within(0.0, WIDEST * span),
         centre.within(low + edge, high - edge),
         rounding.within(SHARP * span, ROUND * span),
     )

@@ -19,4 +19,4 @@ def passed(p: Array, x: float) -> float:
 def part_of(p: Mapping[str, float]) -> Part | None:
     share, half, centre, rounding = (p[name] for name in ("share", "half_width", "centre", "rounding"))
     at_zero = 0.5 * (math.hypot(half - centre, rounding) - math.hypot(half + centre, rounding))
-    return Part((share, half, centre, rounding, at_zero)) if share != 0.0 else None
+    return Part((share, half, centre, rounding, at_zero)) if half != 0.0 else None
