@@ -24,8 +24,9 @@ DEGREE = 4
 
 PROMINENT = 2.0
 """Times the gain at all lower frequencies down to half of its own, at least: what a smooth fault leaves falls, and has
-no line. With half and with twice of it the same was told of 162 made residuals: a ripple of all 18 that had one, and of
-no other. Without it an output that is cut off had an error of its sensor beside the saturation."""
+no line. Of 162 made residuals, looked at by their Fourier spectrum, half and twice of it told the same: a ripple of all
+18 that had one, and of no other. Without it an output that is cut off had an error of its sensor beside the saturation.
+"""
 
 ASIDE = 1.5
 """Cycles from a line within which its own power lies."""

@@ -110,7 +110,8 @@ class InputDeadZone(Effect):
 class OutputDeadZone(Effect):
     """A dead zone of the output, such as of a sensor that does not answer to little [1].
 
-    y = x - min(max(x - centre, -half_width), half_width), x the response. Ours: about any centre, as `input-dead-zone`.
+    y = x - share (held(x - centre) - held(-centre)), x the response, held and what is ours of it as of
+    `input-dead-zone`.
 
     [1] G. Tao, P. V. Kokotovic, Adaptive Control of Systems with Actuator and Sensor Nonlinearities, Wiley (1996).
     """
