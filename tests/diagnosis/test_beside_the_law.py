@@ -3,12 +3,18 @@
 import numpy as np
 import pytest
 
-from hysteresis_bench import diagnose
-from hysteresis_bench.diagnosis.question import DiagnosisOptions
+from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.signals import Dataset, Record
 
 TIME = np.linspace(0.0, 2.0, 500)
 FAST = 12.0
+LIKELY = (
+    *("cogging", "cubic-stiffness", "input-cyclic-error", "output-cyclic-error", "viscous-damping"),
+    *("asymmetry", "bias", "creep", "output-lag", "saturation"),
+)
+"""What there is here, and what it may be taken for."""
+
 NOISE = 0.003
 
 
@@ -59,7 +65,7 @@ def measured(device) -> Dataset:
     ],
 )
 def test_what_acts_beside_the_law_or_errs_is_named_or_its_family(device, name):
-    found = diagnose(measured(device), "bouc-wen", options=DiagnosisOptions(jobs=1))
+    found = diagnose(measured(device), Question("bouc-wen", among=LIKELY, options=DiagnosisOptions(jobs=1)))
     assert found.effects == (name,)
     assert found.before.fitted.rmse > 2.0 * found.floor
     assert found.after.fitted.rmse < 1.15 * found.floor

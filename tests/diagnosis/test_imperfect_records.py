@@ -24,7 +24,8 @@ TEMPTING = ("asymmetry", "backlash", "bias", "creep", "drift", "eddy-current", "
 def found_in(imperfect, effects=(), law="bouc-wen", seed=3):
     settings = {"model": law, "imperfect": imperfect, "effects": effects, "noise": 0.004}
     data = measure("hidden-effects", *RECORDS, settings=settings, seed=seed).split(RECORDS[-1:])
-    return diagnose(data, Question("bouc-wen", options=DiagnosisOptions(jobs=1))), data
+    among = (*TEMPTING, *effects) if effects else None  # where nothing is hidden, all there are are asked about
+    return diagnose(data, Question("bouc-wen", among=among, options=DiagnosisOptions(jobs=1))), data
 
 
 @pytest.mark.parametrize("effects", [(), ("creep",)])
@@ -119,8 +120,9 @@ def test_a_lag_that_only_smooths_a_noisy_input_is_not_named(names, names_only):
     settings = {"model": "jiles-atherton", "effects": names, "draw": 3563, "imperfect": "noisy-input"}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=3).split(records[-1:])
+    among = (*TEMPTING, "input-lag", "transport-delay", "second-order-input-lag", "second-order-lag")
     with names_only():
-        found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
+        found = diagnose(data, Question("jiles-atherton", among=among, options=DiagnosisOptions(jobs=1)))
     assert found.effects == names
     assert any("The input is measured with noise" in one for one in found.warnings)
     assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
@@ -170,12 +172,14 @@ def test_many_samples_are_taken_as_they_are():
     assert not any("The samples are few" in one for one in found.warnings)
 
 
-def test_a_hum_that_passes_for_noise_is_named():
+def test_a_hum_that_passes_for_noise_is_named(names_only):
     """Of four samples a period it looks like noise of six times the noise, which is more than the bare law leaves."""
     settings = {"model": "jiles-atherton", "effects": ("periodic-disturbance",), "draw": 8132, "imperfect": "coarse"}
     records = ("slow", "fast", "nested", "sweep", "mixed")
     data = measure("hidden-effects", *records, settings=settings, seed=3).split(records[-1:])
-    found = diagnose(data, Question("jiles-atherton", options=DiagnosisOptions(jobs=1)))
+    with names_only():
+        among = (*TEMPTING, "periodic-disturbance")
+        found = diagnose(data, Question("jiles-atherton", among=among, options=DiagnosisOptions(jobs=1)))
     assert found.effects == ("periodic-disturbance",)
     assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
     assert found.noise.floor < 1.3 * data.hidden["noise"]
@@ -188,7 +192,8 @@ def test_a_slip_is_no_drift_in_a_diagnosis(names_only):
     rising = np.where(np.arange(800) >= 360, 0.2 * np.ptp(records[1].output), 0.0)
     faulty = [replace(one, output=one.output + rising) if one.name in ("fast", "mixed") else one for one in records]
     with names_only():
-        found = diagnose(Dataset(tuple(faulty), ("mixed",)), Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
+        question = Question("bouc-wen", among=TEMPTING, options=DiagnosisOptions(jobs=1))
+        found = diagnose(Dataset(tuple(faulty), ("mixed",)), question)
     assert (found.verdict, found.effects) == ("no-effect-needed", ())
     assert found.after.held_out.rmse < 1.1 * found.floor
     assert sum("slipped" in said for said in found.warnings) == 2

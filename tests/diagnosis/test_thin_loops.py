@@ -58,7 +58,8 @@ def test_a_thin_clean_loop_is_left_to_the_model(alpha, noise, seed):
 
 
 def test_a_linear_device_with_a_delay():
-    found = diagnose(late_lines(), Question("bouc-wen", options=DiagnosisOptions(jobs=1)))
+    likely = ("backlash", "bias", "input-lag", "output-lag", "rayleigh-hysteresis", "resonance", "transport-delay")
+    found = diagnose(late_lines(), Question("bouc-wen", among=likely, options=DiagnosisOptions(jobs=1)))
     assert not found.memory.needed
     assert found.effects == ("transport-delay",)
     values = {name: estimate.value for name, estimate in found.model.parameters.items()}
