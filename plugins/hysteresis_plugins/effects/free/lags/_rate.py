@@ -23,8 +23,9 @@ LIMITS = ("bend", "falling_fast", "rising_fast")
 SLOWEST = 0.02
 """Of the fastest movement, the slowest at which the curve may bend."""
 
-LONGEST = 0.25
-"""Of the longest record, the longest time constant."""
+LONGEST, STEEPEST = 0.25, 10.0
+"""Of the longest record, the longest time constant, and that beyond the bend: with it nothing moves faster than there,
+as behind a limited slew rate. Up to 0.25, one that is limited in a closed loop was left at 2 to 5 times the noise."""
 
 
 def parameters(unit: str) -> tuple[Parameter, ...]:
@@ -57,7 +58,9 @@ def box(own: Sequence[Parameter], records: Sequence[Record], unit: float) -> tup
     """unit : of what lags, in units of the input"""
     bend, *slopes = own
     top = unit * fastest(records)
-    return bend.within(SLOWEST * top, top), *(one.within(0.0, LONGEST * longest(records)) for one in slopes)
+    duration = longest(records)
+    beyond = {name: STEEPEST if name in LIMITS else LONGEST for name in CONSTANTS}
+    return bend.within(SLOWEST * top, top), *(one.within(0.0, beyond[one.name] * duration) for one in slopes)
 
 
 def curve(p: Any, of: str, unit: str) -> Curve:

@@ -45,7 +45,8 @@ class LagCurveBefore(FreeForm):
         return inner(signal.with_input(behind(signal.time, signal.input, p)))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """A bend within the rates of the input, time constants up to a quarter of the longest record."""
+        """A bend within the rates of the input, time constants up to a quarter of the longest record, beyond it
+        up to ten of them."""
         return box(self.parameters, records, 1.0)
 
     def inapplicable(self, records: Sequence[Record]) -> str:
