@@ -4,10 +4,12 @@ The errors are taken for an autoregression (order by BIC), errors and columns ar
 (Cochrane and Orcutt [1]), and an F test compares the regressions with and without the columns in question.
 Its degrees of freedom are those of the effective sample size (Geyer's initial positive sequence [2]), ours:
 with few effective samples the autoregression is itself uncertain, and the plain F test claims too much.
+Whether errors are as loud in one stretch as in another, Bartlett's test [3] says, with degrees of freedom alike.
 
 A residual and its columns are lists, one array a record: filters and lags never reach across records.
 
 [1] D. Cochrane, G. H. Orcutt, J. Am. Stat. Assoc. 44 (1949) 32.  [2] C. J. Geyer, Stat. Sci. 7 (1992) 473.
+[3] M. S. Bartlett, Proc. R. Soc. A 160 (1937) 268.
 """
 
 from __future__ import annotations
@@ -24,6 +26,9 @@ Parts = Sequence[Array]
 ORDERS = 12
 FEWEST = 4.0
 """Degrees of freedom of an F test below, at least: the estimate of their number is rough."""
+STRETCH, STRETCHES = 8.0, 4
+"""Degrees of freedom of the mean square of a stretch, from which its logarithm is nearly normal, and how many stretches
+there must be. With half or twice the former what is told of made bursts stays the same."""
 TINY = 1e-12
 """Below this share of the sum of squares lies only rounding."""
 
@@ -86,6 +91,33 @@ def effective_samples(errors: Parts) -> float:
     positive = np.minimum.accumulate(pairs[: ends[0] if ends.size else pairs.size])
     samples = sum(error.size for error in errors)
     return float(samples / max(2.0 * positive.sum() - 1.0, 1.0))
+
+
+def equally_loud(errors: Parts) -> float:
+    """p-value of stretches that are as loud as each other; 1 where the errors are too few, or correlated too far, for
+    four of them.
+
+    Of autocorrelated normal errors the mean square of n has n / sum_{|k|<n} (1 - |k|/n) r_k^2 degrees of freedom.
+    """
+    from scipy.special import chdtrc
+
+    squares = correlations(errors) ** 2
+    lags = np.arange(squares.size)
+    sizes = lags + 1
+    freedom = sizes / (2.0 * np.cumsum(squares) - 2.0 * np.cumsum(lags * squares) / sizes - squares[0])
+    enough = np.flatnonzero(freedom >= STRETCH)
+    if not enough.size:
+        return 1.0
+    size = int(sizes[enough[0]])
+    stretches = [part for error in errors for part in np.array_split(error, max(error.size // size, 1))]
+    stretches = [part for part in stretches if part.size >= size]
+    loud = np.array([float(np.mean(part**2)) for part in stretches])
+    if loud.size < STRETCHES or not np.all(loud > 0.0):
+        return 1.0
+    own = freedom[np.minimum([part.size for part in stretches], sizes.size) - 1]
+    statistic = own.sum() * np.log(own @ loud / own.sum()) - own @ np.log(loud)  # [3]
+    corrected = statistic / (1.0 + (np.sum(1.0 / own) - 1.0 / own.sum()) / (3.0 * (loud.size - 1)))
+    return float(chdtrc(loud.size - 1, corrected))
 
 
 def f_test(errors: Parts, columns: Parts, nuisance: Parts | None = None, level: bool = True) -> FTest:

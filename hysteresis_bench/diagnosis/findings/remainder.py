@@ -9,7 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, f_tail, overlooked
+from hysteresis_bench.diagnosis.evidence.autocorrelated import (
+    effective_samples,
+    equally_loud,
+    f_tail,
+    overlooked,
+)
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.noise import clipped_rms
@@ -33,6 +38,12 @@ MOSTLY = 0.5
 """Share of the mean square that a constant must be to be told: more than all else. With half of it a model is told so
 that misses the shape as well, with twice of it none."""
 
+WHITE, LONGEST = 0.1, 20
+"""Of what is left, the share that the noise from sample to sample may have in whether it is as loud throughout: so many
+samples are averaged, at most. Such noise may be louder at some times than at others."""
+
+BURSTS = "What is left is loud at some times and quiet at others, as noise seldom is."
+
 OF_THE_NOISE = ("noise-floor", "whiteness", "offset")
 """Tests that slow noise fails, beside those of the scatter; it passes all that ask for a cause."""
 
@@ -42,12 +53,12 @@ class Remainder:
     """equation : what describes the residual, None where it does not matter
     matters : something with a cause is left, or a residual that is too small a sample to tell
     slow : nothing is left but noise that changes slowly: correlated from sample to sample, without any cause that was
-        measured, described by no term, and no louder where nothing was fitted; and of so many independent samples that
-        a cause of `WRONG` times the noise would have been seen in it
+        measured, described by no term, as loud at one time as at another, and no louder where nothing was fitted; and
+        of so many independent samples that a cause of `WRONG` times the noise would have been seen in it
     heavy : nothing is left but noise of heavy tails: not correlated, without a cause or a term either, and most samples
         are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
-    repeating : a sentence, where it repeats itself along the input or the output
+    shape : a sentence, where it repeats itself along the input or the output, or comes in bursts
     """
 
     equation: Equation | None
@@ -55,7 +66,7 @@ class Remainder:
     slow: bool
     heavy: bool
     louder: bool
-    repeating: str = ""
+    shape: str = ""
 
     @property
     def noise(self) -> bool:
@@ -86,11 +97,19 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     caused = [test for test in telling if test.name not in OF_THE_NOISE]
     white = not any(test.name == "whiteness" for test in tests)
     noise = not (caused or equation.terms or louder)
-    slow = noise and not white and _hidden(residuals, len(tests)) <= WRONG * floor
+    bursts = noise and not white and equally_loud(_averaged(residuals, floor)) < LEVEL
+    slow = noise and not white and not bursts and _hidden(residuals, len(tests)) <= WRONG * floor
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
     ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
-    repeating = f"{ripple.words.capitalize().partition(', p =')[0]}." if ripple else ""
-    return Remainder(equation, not (slow or heavy), slow, heavy, louder, repeating)
+    shape = f"{ripple.words.capitalize().partition(', p =')[0]}." if ripple else BURSTS if bursts else ""
+    return Remainder(equation, not (slow or heavy), slow, heavy, louder, shape)
+
+
+def _averaged(residuals: Sequence[Array], floor: float) -> list[Array]:
+    """Means of so many samples that the noise from one to the next counts for little."""
+    left = float(np.mean(np.concatenate(residuals) ** 2)) - floor**2
+    samples = int(np.clip(math.ceil(floor**2 / (WHITE * left)) if left > 0.0 else LONGEST, 1, LONGEST))
+    return [part[: part.size // samples * samples].reshape(-1, samples).mean(axis=1) for part in residuals]
 
 
 def _hidden(residuals: Sequence[Array], tests: int) -> float:

@@ -157,7 +157,7 @@ def headline(outcome: Outcome) -> str:
     elif outcome.left.slow and outcome.leaves[0] > WRONG:
         left = f"{rounded(outcome.leaves[0])} times the noise from sample to sample"
         said += f" What is left is {left}: slow noise, or a cause that these records do not show."
-    return f"{said} {outcome.left.repeating}".rstrip()
+    return f"{said} {outcome.left.shape}".rstrip()
 
 
 def _of_the_law(outcome: Outcome) -> Iterator[str]:

@@ -5,7 +5,8 @@ from types import SimpleNamespace as Of
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.findings.remainder import Remainder, _hidden, _louder, other_zero
+from hysteresis_bench.diagnosis.evidence.autocorrelated import equally_loud
+from hysteresis_bench.diagnosis.findings.remainder import Remainder, _averaged, _hidden, _louder, other_zero
 
 RECORDS, SAMPLES, PARAMETERS = 4, 800, 4
 
@@ -52,6 +53,32 @@ def test_where_nothing_was_held_out_nothing_is_louder():
 def test_a_fit_below_the_noise_makes_nothing_else_louder():
     assert _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 0.0, PARAMETERS)
     assert not _louder(stage(1.0), [0.7 * part for part in residuals(1, decay=0.0)], 1.0, PARAMETERS)
+
+
+@pytest.mark.parametrize("decay", [0.0, 0.5, 0.9, 0.98])
+def test_slow_noise_is_as_loud_at_one_time_as_at_another(decay):
+    p = np.array([equally_loud(residuals(seed, decay)) for seed in range(150)])
+    assert np.sum(p < 0.01) <= 5  # more than 5 of 150 has a probability of 0.004
+    assert np.mean(p < 1.0) > 0.5  # most are long enough to be asked
+
+
+def test_what_comes_with_the_drive_is_not():
+    """Where it moves fast a model is off, elsewhere the noise alone is left."""
+    rng, fast = np.random.default_rng(4), np.sin(np.linspace(0.0, 3.0 * np.pi, SAMPLES)) > 0.3
+    parts = [np.where(fast, 3.0, 0.0) * slow + rng.standard_normal(SAMPLES) for slow in residuals(2)]
+    assert equally_loud(_averaged(parts, 1.0)) < 1e-6
+
+
+def test_noise_from_sample_to_sample_may_be_louder_at_some_times():
+    rng, louder = np.random.default_rng(5), np.linspace(0.4, 1.6, SAMPLES)
+    parts = [slow + louder * rng.standard_normal(SAMPLES) for slow in residuals(3)]
+    assert equally_loud(parts) < 0.01
+    assert equally_loud(_averaged(parts, 1.0)) > 0.05
+
+
+@pytest.mark.parametrize("parts", [[np.zeros(200)], [np.ones(12)], residuals(1, 0.999)[:1]])
+def test_of_too_little_nothing_is_said_of_how_loud_it_is(parts):
+    assert equally_loud(parts) == 1.0
 
 
 def test_noise_of_many_independent_samples_hides_little():

@@ -29,7 +29,7 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
             slow=slow,
             noise=slow,
             louder=(held_out or 0.0) > 1.25 * max(rmse, 0.1),
-            repeating=more.get("repeating", ""),
+            shape=more.get("shape", ""),
         ),
         units={"output": "um"},
         model="dahl",
@@ -44,7 +44,7 @@ def replace_held_out(stage, rmse):
 
 def test_what_repeats_itself_is_told_last():
     sentence = "The residual repeats itself 12 times over the range of the input (84% of its variance)."
-    assert headline(outcome_of((), {}, rmse=0.5, repeating=sentence)).endswith(f"explains. {sentence}")
+    assert headline(outcome_of((), {}, rmse=0.5, shape=sentence)).endswith(f"explains. {sentence}")
 
 
 def test_stand_ins_are_told_together_where_the_reason_is_one():
