@@ -98,6 +98,7 @@ EFFECTS = {
     "saturation": {"inverse_level": 0.25, "sharpness": 3.0},
     "second-order-input-lag": {"time_constant": 0.01, "damping": 0.9},
     "second-order-lag": {"time_constant": 0.02, "damping": 1.4},
+    "slew-rate-limit": {"slowness": 0.1, "skew": 0.3},
     "transport-delay": {"delay": 0.0133},
     "disturbance-wave": {
         "duration": 1.6, "frequency": 7.0, **{f"cosine{k}": 0.1 * k for k in range(5)},

@@ -14,7 +14,7 @@ NAMES = registry.names("effects")
 RATE_INDEPENDENT = ("asymmetry", "backlash", "bias", "fatigue", "input-dead-zone", "output-dead-zone", "saturation")
 TIME_INVARIANT = (
     *("creep", "droop", "input-lag", "output-lag", "resonance", "transport-delay"),
-    *("second-order-lag", "second-order-input-lag"),
+    *("second-order-lag", "second-order-input-lag", "slew-rate-limit"),
 )
 MODEL = np.array([[1.3], [0.4]])
 

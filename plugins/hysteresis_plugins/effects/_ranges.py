@@ -65,8 +65,12 @@ def offset(records: Sequence[Record]) -> float:
 
 def fastest(records: Sequence[Record]) -> float:
     """Fastest movement of the input, unit of input over unit of time: all but a hundredth of the steps are slower."""
-    rates = [np.abs(np.diff(record.input)) / np.diff(record.time) for record in records]
-    return max(float(np.quantile(rate, 0.99)) for rate in rates)
+    return max(float(np.quantile(speeds(record), 0.99)) for record in records)
+
+
+def speeds(record: Record) -> Array:
+    """Of the input in every step, (samples - 1,), unit of input over unit of time."""
+    return np.asarray(np.abs(np.diff(record.input)) / np.diff(record.time))
 
 
 def duration(record: Record) -> float:

@@ -22,6 +22,7 @@ CHAIN = [
     "lag-with-level-before",
     "lags-before",
     "second-order-input-lag",
+    "slew-rate-limit",
     "input-cyclic-error",
     "output-curve",
     "output-dead-zone",
