@@ -39,6 +39,7 @@ EFFECTS = {
     "output-lag": {"time_constant": 0.005},
     "resonance": {"period": 0.01, "damping": 0.1},
     "saturation": {"inverse_level": 0.1, "sharpness": 2.0},
+    "slew-rate-limit": {"slowness": 0.02, "skew": 0.0},
     "drift": {"rate": 0.1},
 }
 
@@ -92,11 +93,11 @@ def test_which_inverse_is_taken():
 
 
 def test_preparation_limit_and_what_is_left_out():
-    model = fitted("bouc-wen", BOUC_WEN, ("input-lag", "lag-curve-after", "drift"))
+    model = fitted("bouc-wen", BOUC_WEN, ("input-lag", "lag-curve-after", "slew-rate-limit", "drift"))
     model = replace(model, preparation=Preparation(input_offset=0.5, flip=True))
     driven = drive(model, forward_of(model), TIME, WANTED, limit=1.0)
     assert driven.undone == ("input-lag",)
-    assert driven.ignored == ("lag-curve-after", "drift")
+    assert driven.ignored == ("lag-curve-after", "slew-rate-limit", "drift")
     assert np.max(np.abs(driven.input)) <= 1.0
     assert driven.cut.any()
     model = fitted("bouc-wen", BOUC_WEN, ("input-lag", "drift"))

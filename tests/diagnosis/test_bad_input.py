@@ -14,6 +14,9 @@ from tests.diagnosis.generator import make
 pytestmark = pytest.mark.usefixtures("few_laws")
 
 BARE = Question("bouc-wen", options=DiagnosisOptions(jobs=1))
+DYNAMICS = ("creep", "input-lag", "output-lag", "resonance", "second-order-lag", "transport-delay")
+FEW = replace(BARE, among=("backlash", "bias", "drift", "rayleigh-hysteresis", "saturation", *DYNAMICS))
+"""What is there, and what it may be taken for."""
 
 
 def first(dataset, **changes):
@@ -52,7 +55,7 @@ def test_no_noise_at_all_and_nothing_hidden():
 
 @pytest.mark.parametrize("hidden", ["backlash", "input-lag"])
 def test_no_noise_at_all_and_one_effect(hidden):
-    found = diagnose(part_of(make(4, "bouc-wen", hidden=(hidden,), noise=0.0).dataset), BARE)
+    found = diagnose(part_of(make(4, "bouc-wen", hidden=(hidden,), noise=0.0).dataset), FEW)
     assert len(found.effects) == 1
     assert hidden in claims(found)[0]
     assert found.after.held_out.rmse < 0.1 * found.before.held_out.rmse
@@ -86,7 +89,7 @@ def test_a_delay_longer_than_any_that_is_tried(names_only):
         return replace(record, output=np.interp(record.time - 0.7, record.time, record.output))
 
     with names_only():
-        found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 4), BARE)
+        found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, late, 4), FEW)
     assert found.verdict == "unexplained-residual"
     assert not found.effects or "may lack" in found.headline
 
@@ -107,7 +110,7 @@ def test_an_output_that_runs_backwards_in_time(names_only):
         return replace(record, output=record.output[::-1].copy())
 
     with names_only():
-        found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, backwards, 2), BARE)
+        found = diagnose(part_of(make(3, "bouc-wen", hidden=(), noise=0.004).dataset, backwards, 2), FEW)
     assert found.verdict == "unexplained-residual"
     assert not found.effects or "may lack" in found.headline
     assert any(

@@ -76,7 +76,6 @@ class SlewRateLimit(Effect):
 
     acts = "input"
     family = "dynamics before the law"
-    affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "input-lag": "at one amplitude and frequency both shift the loop in time and take some of its width",
         "transport-delay": "at one amplitude and frequency both shift the loop in time",

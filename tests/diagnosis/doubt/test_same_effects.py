@@ -18,7 +18,8 @@ ONE = DiagnosisOptions(jobs=1)
 def found_around(law, effects, names_only):
     """In records of Bouc and Wen's law with these effects."""
     settings = {"model": "bouc-wen", "effects": effects, "noise": 0.004}
-    question = Question(law, options=ONE)
+    likely = ("asymmetry", "backlash", "bias", "creep", "drift", "output-lag", "saturation")
+    question = Question(law, among=likely, options=ONE)
     prepared = prepare(measure("hidden-effects", *RECORDS, settings=settings, seed=3), question)
     with names_only():
         return search(prepared, gather(prepared.views), question)
