@@ -22,6 +22,7 @@ from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.fit.unseen.aliases import alias_told, steps
 from hysteresis_bench.fit.unseen.between_samples import few_told
 from hysteresis_bench.fit.unseen.excited import excited, ranges
 from hysteresis_bench.fit.unseen.interval import Interval, interval_of
@@ -92,11 +93,11 @@ class FittedModel:
             skipped = self.preparation.skipped(record).history
             around = self.interval.around(output, level) if self.interval else {}
             units = {**record.units, **dict.fromkeys(("output", *around), self.units["output"])}
-            columns = {**record.columns, **around}
-            return replace(record, output=output, history=skipped, units=units, columns=columns)
+            return replace(record, output=output, history=skipped, units=units, columns={**record.columns, **around})
 
         left = self.error.get("fitted", {}).get("rmse", np.inf)
-        few = (few_told(system, self.preparation(record), values[:, 0], left) for record in known.records)
+        few = [few_told(system, self.preparation(record), values[:, 0], left) for record in known.records]
+        few += [alias_told(system, self.data.get("steps"), record) for record in known.records]
         notes = [*known.notes, *self.preparation.words(known.records, self.units["time"]), *filter(None, few)]
         if self.schema < SCHEMA:
             notes.append(f"The model file is of schema {self.schema}, which does not tell whether loops were settled.")
@@ -158,6 +159,7 @@ def fitted_model(
             "held_out": [record.name for record in dataset.held_out],
             "ranges": ranges(dataset.fitted, preparation),
             "excited": excited(dataset.fitted),
+            "steps": steps(dataset.fitted),
         },
         error,
         {"hysteresis-bench": version("hysteresis-bench"), "python": platform.python_version()},
