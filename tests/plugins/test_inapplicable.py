@@ -19,7 +19,7 @@ def test_boxes_follow_the_data():
     data = record()
     assert box("drift", data)["rate"] == pytest.approx((-3.0, 3.0), rel=1e-3)  # 12 in 4 s
     assert box("backlash", data)["half_width"] == pytest.approx((0.0, 2.4), rel=1e-3)
-    assert box("saturation", data)["inverse_level"] == pytest.approx((0.0, 1 / 5.4), rel=1e-3)
+    assert box("saturation", data)["inverse_level"] == pytest.approx((0.0, 1 / 3.6), rel=1e-3)
     assert box("asymmetry", data)["curvature"] == pytest.approx((-0.45 / 3.5, 0.45 / 3.5), rel=1e-3)
     assert box("fatigue", data)["rate"] == pytest.approx((0.0, 3.0 / 48.0), rel=1e-3)  # four cycles of 12
     assert box("transport-delay", data)["delay"] == pytest.approx((2e-4, 0.5), rel=1e-2)  # half a period

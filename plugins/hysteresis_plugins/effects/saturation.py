@@ -72,9 +72,10 @@ class Saturation(Effect):
         return output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Levels from 0.45 times the output's range, less than which a symmetric output would not pass."""
+        """Levels from 0.3 times the output's range. Less than half of it a symmetric output would not pass, unless
+        something is added to it behind, or multiplies it."""
         inverse_level, sharpness = self.parameters
-        return inverse_level.within(0.0, 1.0 / (0.45 * (output_span(records) or 1.0))), sharpness
+        return inverse_level.within(0.0, 1.0 / (0.3 * (output_span(records) or 1.0))), sharpness
 
     def inapplicable(self, records: Sequence[Record]) -> str:
         return "the output never moves" if output_span(records) == 0.0 else ""
