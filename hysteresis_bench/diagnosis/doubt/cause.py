@@ -5,7 +5,8 @@ every other law is fitted to a part of the samples, with the effects in question
 all, and effects that they do not need are taken off again. A law that predicts clearly better, and leaves less than
 half of the excess over the noise, is told as the cause; so is one that needs no curve and predicts as well as a system
 with one, unless it has more parameters, and the curve is all of the shape that was adopted, if it is any: a richer law
-follows one curve as well, and shows nothing. What was adopted and is not needed around that law is a stand-in: it stays
+follows one curve as well, and shows nothing. Nor does one where the law that was asked about needs no curve either to
+predict as well. What was adopted and is not needed around that law is a stand-in: it stays
 in the model, where it helps to predict, and is not named.
 """
 
@@ -22,6 +23,7 @@ from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import NAMED, REACHED
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
@@ -71,7 +73,8 @@ def law_as_cause(
     if not clearly_better(best, own, floor, fitter.blocks):
         reached = REACHED * max(own.rmse, floor)
         most = _in_use(fitter, found.final) if sum(map(is_shape, own.effects)) < 2 else np.inf
-        as_well = [one for one in predicting if curves and one.parameters <= most and one.rmse <= reached]
+        needed = curves and not _without_curves(found, reached)
+        as_well = [one for one in predicting if needed and one.parameters <= most and one.rmse <= reached]
         best = min(as_well, key=lambda one: one.rmse, default=NOBODY)
     return None if best is NOBODY else Cause(best.model, best.effects, best.rmse, own.rmse)
 
@@ -83,6 +86,13 @@ def clearly_better(one: Contender, other: Contender, floor: float, blocks: Block
     explained, excess = other.rmse**2 - one.rmse**2, other.rmse**2 - floor**2
     explains = other.rmse > REACHED * one.rmse and explained > NAMED * excess
     return bool(explains and advantage(one.errors, other.errors, blocks) > CLEAR)
+
+
+def _without_curves(found: Found, reached: float) -> bool:
+    """Does the law that was asked about with formulas alone, of those that were tried, predict as well?"""
+    known = found.selection.known.values()
+    plain = [one for one in known if one.rmse <= reached and not forms_of(found.selection.adopted(one))]
+    return bool(plain) and unseen_rmse(found.thin, min(plain, key=lambda one: one.cv_rmse)) <= reached
 
 
 def _in_use(fitter: Fitter, final: Hypothesis) -> int:

@@ -1,0 +1,19 @@
+"""A free form in the place of two names does clearly better than both, and than a name in the place of one of them."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from hysteresis_bench.diagnosis.families.free_forms import _in_place_of_two
+from tests.diagnosis.search.handmade import FLOOR, fit, leaving, selection_of
+
+
+@pytest.mark.parametrize(("other", "taken"), [(1.05, True), (1.0, False)])
+def test_a_name_that_does_as_well_keeps_it_out(other, taken):
+    """a and b come near the noise, the form c alone down to it, and so may b with d, which has one parameter more."""
+    current, form, beside = fit("ab", 1.05 * FLOOR), fit("c", 1.0 * FLOOR), fit("bd", other * FLOOR)
+    far = [fit(names, leaving(1.0)) for names in ("", "a", "b", "ad")]
+    selection = selection_of(current, form, beside, *far, candidates="abd")
+    selection.forms = ("c",)
+    selection.fitter.stack.effect = lambda name: SimpleNamespace(estimates=False, family="one")
+    assert _in_place_of_two(selection, current) is (form if taken else current)
