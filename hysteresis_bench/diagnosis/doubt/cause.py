@@ -6,8 +6,8 @@ all, and effects that they do not need are taken off again. A law that predicts 
 half of the excess over the noise, is told as the cause; so is one that needs no curve and predicts as well as a system
 with one, unless it has more parameters, and the curve is all of the shape that was adopted, if it is any: a richer law
 follows one curve as well, and shows nothing. Nor does one where the law that was asked about needs no curve either to
-predict as well. What was adopted and is not needed around that law is a stand-in: it stays
-in the model, where it helps to predict, and is not named.
+predict as well. What was adopted and is not needed around that law is a stand-in: it stays in the model, where it helps
+to predict, and is not named.
 """
 
 from __future__ import annotations

@@ -125,8 +125,10 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
         smaller = selection.without(selection.without(current, first), second) if asked else current
         tried += selection.workers.map([("extended", smaller, form, current.values) for form in asked])
     fitting = [one for one in tried if fits(selection, one)]
-    beaten = [current, *(one for name in adopted if fitting for one in selection.rivals(current, name).values())]
-    least = min(beaten, key=lambda one: one.cv_rmse)
+    if not fitting:
+        return current
+    rivals = (one for name in adopted for one in selection.rivals(current, name).values())
+    least = min([current, *rivals], key=lambda one: one.cv_rmse)
     clear = [one for one in fitting if advantage(one.left_out, least.left_out, selection.fitter.blocks) > CLEAR]
     return selection.workers.map([("refitted", selection.simplest(clear))])[0] if clear else current
 

@@ -9,12 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.evidence.autocorrelated import (
-    effective_samples,
-    equally_loud,
-    f_tail,
-    overlooked,
-)
+from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, equally_loud, f_tail, overlooked
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.noise import clipped_rms

@@ -12,7 +12,8 @@ from hysteresis_bench.data.units import rounded
 from hysteresis_bench.signals import Record
 
 OTHERWISE = 0.05
-"""Share by which steps differ that are not the same. Sampling rates are chosen: half or twice of it seldom matters."""
+"""Share of a step by which steps differ that are not the same. Rates of sampling are chosen, and differ by more or not
+at all: half or twice of it changes what is told of steps that are 2.5 to 10 % off."""
 
 FAMILY = "added disturbance"
 

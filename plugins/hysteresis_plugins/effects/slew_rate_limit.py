@@ -84,7 +84,7 @@ class SlewRateLimit(Effect):
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_soft, _loaded)
     parameters = (
         Parameter("slowness", 0.0, 10.0, "{time}/{input}", null=0.0, meaning="one over the highest rate"),
-        Parameter("skew", -0.6, 0.6, null=0.0, meaning="by how much more downwards is slower than upwards"),
+        Parameter("skew", -0.6, 0.6, null=0.0, meaning="share by which downwards is slower, and upwards faster"),
     )
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:

@@ -17,7 +17,10 @@ from hysteresis_plugins.effects.free._spline import POINTS
 CONSTANTS = ("falling_fast", "falling", "rising", "rising_fast")
 """Time constants, in the order of the kernel."""
 
-LIMITS = ("bend", "falling_fast", "rising_fast")
+BEYOND = ("falling_fast", "rising_fast")
+"""Those beyond the bend."""
+
+LIMITS = ("bend", *BEYOND)
 """Without a bend within the rates of the data, or with a rate that is never passed."""
 
 SLOWEST = 0.02
@@ -59,8 +62,8 @@ def box(own: Sequence[Parameter], records: Sequence[Record], unit: float) -> tup
     bend, *slopes = own
     top = unit * fastest(records)
     duration = longest(records)
-    beyond = {name: STEEPEST if name in LIMITS else LONGEST for name in CONSTANTS}
-    return bend.within(SLOWEST * top, top), *(one.within(0.0, beyond[one.name] * duration) for one in slopes)
+    most = {one.name: duration * (STEEPEST if one.name in BEYOND else LONGEST) for one in slopes}
+    return bend.within(SLOWEST * top, top), *(one.within(0.0, most[one.name]) for one in slopes)
 
 
 def curve(p: Any, of: str, unit: str) -> Curve:
