@@ -9,6 +9,7 @@ from hysteresis_bench.kernels.effects.curve_in_time import add, products, scale_
 from hysteresis_bench.kernels.effects.fatigue import fade
 from hysteresis_bench.kernels.effects.saturation import saturate
 from hysteresis_bench.kernels.ripple import add_ripple
+from hysteresis_bench.kernels.rounded_dead_zone import rounded_dead_zone
 from hysteresis_bench.kernels.sinusoid import add_sinusoid
 from hysteresis_bench.signals import read_only
 
@@ -47,6 +48,24 @@ def test_saturation_of_an_infinite_output_is_the_level():
     found = np.array([[np.inf, -np.inf, 1e308, -1e308]])
     saturate(found, np.array([2.0, 2.0, 1e10, 1e10]), np.full(4, 3.0))
     np.testing.assert_allclose(found, [[0.5, -0.5, 1e-10, -1e-10]], rtol=1e-15)
+
+
+@pytest.mark.parametrize("own", [False, True])
+def test_dead_zone(y, own):
+    x = y if own else y[:, :1].copy()
+    share, half_width = drawn(4, 0.5, 1.2), drawn(5, 0.0, 5.0)
+    centre, rounding = drawn(6, -3.0, 3.0), drawn(7, 0.0, 1.0)
+    rounding[:4] = 0.0
+
+    def held(d):
+        return 0.5 * (np.hypot(d + half_width, rounding) - np.hypot(d - half_width, rounding))
+
+    expected = x - share * (held(x - centre) - held(-centre))
+    np.testing.assert_allclose(rounded_dead_zone(x, share, half_width, centre, rounding), expected, atol=1e-13)
+    sharp = rounded_dead_zone(x, share, half_width, OFF, OFF)
+    np.testing.assert_allclose(sharp, x - share * np.clip(x, -half_width, half_width), atol=1e-14)
+    off = rounded_dead_zone(x, share, OFF, centre, rounding)
+    np.testing.assert_array_equal(off, np.broadcast_to(x, off.shape))
 
 
 @pytest.mark.parametrize("own", [False, True])

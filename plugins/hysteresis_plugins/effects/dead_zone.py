@@ -92,7 +92,7 @@ class InputDeadZone(Effect):
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         if not np.any(p.half_width):  # the model sees the very input, still shared by the swarm
             return inner(signal)
-        return inner(signal.with_input(signal.input - _within(signal.input, p)))
+        return inner(signal.with_input(_passed(signal.input, p)))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Half-widths up to 0.4 ranges of the input, centres in three fifths of it."""
@@ -129,9 +129,7 @@ class OutputDeadZone(Effect):
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         output = own(inner(signal), signal)
-        if np.any(p.half_width):
-            output -= _within(output, p)
-        return output
+        return _passed(output, p) if np.any(p.half_width) else output
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """Half-widths up to 0.4 ranges of the output, centres in three fifths of it."""
@@ -145,15 +143,10 @@ class OutputDeadZone(Effect):
         return _starts(self.box(records), output_span(records), [0.0, offset(records)])
 
 
-def _within(x: Array, p: Any) -> Array:
-    """What does not pass, (samples, swarm)."""
-    found: Array = p.share * (_held(x - p.centre, p) - _held(-p.centre, p))
-    return found
+def _passed(x: Array, p: Any) -> Array:
+    from hysteresis_bench.kernels.rounded_dead_zone import rounded_dead_zone
 
-
-def _held(d: Array, p: Any) -> Array:
-    """min(max(d, -half_width), half_width), the corners rounded;  d : from the centre"""
-    found: Array = 0.5 * (np.hypot(d + p.half_width, p.rounding) - np.hypot(d - p.half_width, p.rounding))
+    found: Array = rounded_dead_zone(x, p.share, p.half_width, p.centre, p.rounding)
     return found
 
 
