@@ -35,11 +35,13 @@ NO_EFFECTS = ("noise", "parameters")
 
 @dataclass(frozen=True)
 class ClosingTicket:
-    """Which diagnosis to run, and the folder that it writes. The study travels as text."""
+    """Which diagnosis to run, in how many processes (which changes no number), and the folder that it writes.
+    The study travels as text."""
 
     study: str
     data: str
     out: str
+    jobs: int | None = None
 
 
 @dataclass(frozen=True)
@@ -67,11 +69,11 @@ def run_with_diagnosis(
     study, _ = read_study(Path(path))
     if study.closing and not (options and options.shard):
         with alone(folder):
-            write_closing(study, Path(path).parent, folder)
+            write_closing(study, Path(path).parent, folder, jobs)
     return folder
 
 
-def write_closing(study: Study, data: Path, results: Path) -> None:
+def write_closing(study: Study, data: Path, results: Path, jobs: int | None = None) -> None:
     """Diagnose what the study's [closing] asks for, into the sub-folder closing/ of its results.
 
     data : the folder where relative data files are looked for. A diagnosis that failed is tried again by the next
@@ -85,7 +87,7 @@ def write_closing(study: Study, data: Path, results: Path) -> None:
     shutil.rmtree(out, ignore_errors=True)
     out.mkdir()
     begun = time.monotonic()
-    ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()))
+    ticket = ClosingTicket(study.model_dump_json(), str(data.resolve()), str(out.resolve()), jobs)
     with Pool(Work(at_once(run_closing), LIMIT), 1) as pool:
         ((_, _, status, reason),) = pool.run([ticket])
     outcome = {
@@ -124,7 +126,7 @@ def run_closing(ticket: ClosingTicket) -> DiagnosisEnd:
     seen = closing_dataset(study, Path(ticket.data))
     blind = Dataset(seen.records, seen.held_out_names)
     try:
-        options = DiagnosisOptions(seed=study.seed, jobs=1)
+        options = DiagnosisOptions(seed=study.seed, jobs=ticket.jobs)
         asked = Question(spec.model, spec.effects, spec.settings, options=options)
         found = diagnose(blind, asked)
     except UserError as error:
