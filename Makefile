@@ -6,7 +6,7 @@ NEWEST ?=
 SUBJECTS ?= effects bouc_wen free_energy kernels resources evidence start_up runner
 BIN    := .venv/bin
 
-.PHONY: install study test test-newest docs benchmark torture fuzz clean
+.PHONY: install study test test-long test-newest docs benchmark torture fuzz clean
 
 install: .venv/installed
 
@@ -17,7 +17,11 @@ test: .venv/installed-test
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n auto --dist worksteal
+	$(BIN)/python -m pytest -n auto --dist loadfile
+
+# What is too long for every change: whole diagnoses, ill-treated studies.
+test-long: .venv/installed-test
+	$(BIN)/python -m pytest -n auto --dist worksteal -m long
 
 # NEWEST: arguments for pytest, such as what to leave out.
 test-newest: .venv/installed

@@ -69,6 +69,7 @@ def test_noise_is_not_called_none():
     assert not any("next to no noise" in warning for warning in found.warnings)
 
 
+@pytest.mark.long
 def test_an_output_that_is_cut_off():
     """Sharper than the box of a saturation: the right name, and a word on the edge."""
     rng = np.random.default_rng(9)
@@ -105,6 +106,7 @@ def test_one_frequency_cannot_show_a_resonance():
     )
 
 
+@pytest.mark.long
 def test_an_output_that_runs_backwards_in_time(names_only):
     def backwards(record):
         return replace(record, output=record.output[::-1].copy())

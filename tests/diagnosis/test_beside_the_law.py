@@ -56,9 +56,9 @@ def measured(device) -> Dataset:
     [
         (beside(lambda u, v: 0.25 * u**3), "cubic-stiffness"),
         (beside(lambda u, v: -0.15 * u**3), "cubic-stiffness"),
-        (beside(lambda u, v: 0.25 * u**5), "parallel-curve"),
+        pytest.param(beside(lambda u, v: 0.25 * u**5), "parallel-curve", marks=pytest.mark.long),
         (beside(lambda u, v: 0.1 * v), "viscous-damping"),
-        (beside(lambda u, v: 0.1 * v * np.abs(v)), "damping-curve"),
+        pytest.param(beside(lambda u, v: 0.1 * v * np.abs(v)), "damping-curve", marks=pytest.mark.long),
         (beside(lambda u, v: 0.02 * np.sin(2 * np.pi * u / 0.17 + 0.5)), "cogging"),
         (fringes, "output-cyclic-error"),
         (lambda u, v: loop(u + 0.012 * np.sin(2 * np.pi * u / 0.15 + 1.1)), "input-cyclic-error"),

@@ -28,7 +28,7 @@ def found_in(imperfect, effects=(), law="bouc-wen", seed=3):
     return diagnose(data, Question("bouc-wen", among=among, options=DiagnosisOptions(jobs=1))), data
 
 
-@pytest.mark.parametrize("effects", [(), ("creep",)])
+@pytest.mark.parametrize("effects", [(), pytest.param(("creep",), marks=pytest.mark.long)])
 def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects):
     found, _ = found_in("coloured", effects)
     assert found.effects == effects
@@ -37,7 +37,7 @@ def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects):
     assert not any("law does not follow" in one for one in found.warnings)
 
 
-@pytest.mark.parametrize("effects", [(), ("creep",)])
+@pytest.mark.parametrize("effects", [(), pytest.param(("creep",), marks=pytest.mark.long)])
 def test_noise_of_heavy_tails_is_told_as_noise(effects):
     found, _ = found_in("heavy-tailed", effects)
     assert found.effects == effects
@@ -60,6 +60,7 @@ def test_spikes_are_bridged_and_told_and_do_not_change_what_is_found():
     assert np.max(np.abs(data.records[0].output)) > 0.0  # the caller's own records are as they were
 
 
+@pytest.mark.long
 def test_noise_on_the_measured_input_is_no_dead_band_and_a_wider_one_is():
     clean, _ = found_in("noisy-input")
     assert clean.effects == ()
@@ -71,7 +72,7 @@ def test_noise_on_the_measured_input_is_no_dead_band_and_a_wider_one_is():
 
 @pytest.mark.parametrize(
     ("law", "effects", "seed"),
-    [("jiles-atherton", ("creep",), 3), ("bouc-wen", (), 4)],
+    [pytest.param("jiles-atherton", ("creep",), 3, marks=pytest.mark.long), ("bouc-wen", (), 4)],
 )
 def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(law, effects, seed, names_only):
     """Of the last one, what the beginnings leave raises the fitted error by 16 %, and that of what is held out
@@ -86,6 +87,7 @@ def test_records_that_begin_in_mid_loop_are_told_and_nothing_makes_up_for_it(law
     assert found.after.held_out.rmse < 1.1 * data.hidden["noise"]
 
 
+@pytest.mark.long
 def test_what_still_settles_from_before_the_records_is_no_leakage(names_only):
     """Without the beginnings alone a creep had a leakage beside it, that its state at the first sample asked for."""
     settings = {"model": "bouc-wen", "imperfect": "in-mid-loop", "effects": ("creep",), "draw": 25903}
@@ -102,6 +104,7 @@ def test_an_effect_that_acts_all_along_is_not_laid_on_the_beginnings():
     assert not any("begin in mid-loop" in one for one in found.warnings)
 
 
+@pytest.mark.long
 def test_nor_is_one_that_little_is_left_of_beyond_them(names_only):
     """Behind the beginnings the asymmetry is a third of the noise, and significant."""
     settings = {"model": "prandtl-ishlinskii-modified", "effects": ("asymmetry", "output-lag"), "draw": 95014}
@@ -114,7 +117,7 @@ def test_nor_is_one_that_little_is_left_of_beyond_them(names_only):
     assert not any("begin in mid-loop" in one for one in found.warnings)
 
 
-@pytest.mark.parametrize("names", [(), ("transport-delay",)])
+@pytest.mark.parametrize("names", [(), pytest.param(("transport-delay",), marks=pytest.mark.long)])
 def test_a_lag_that_only_smooths_a_noisy_input_is_not_named(names, names_only):
     """It took the noise off in the first, and the place of the delay in the second."""
     settings = {"model": "jiles-atherton", "effects": names, "draw": 3563, "imperfect": "noisy-input"}
@@ -147,8 +150,9 @@ def test_an_input_that_is_rough_by_itself_is_not_smoothed():
     ("law", "imperfect", "draw", "names"),
     [
         ("jiles-atherton", "coarse", 3593, ()),  # a resonance was named that bends the loop as the steps do
-        ("bouc-wen", "coarse", 74375, ("eddy-current",)),  # with a delay that is not there
-        ("bouc-wen", "uneven", 3584, ("backlash",)),  # missed
+        # with a delay that is not there
+        pytest.param("bouc-wen", "coarse", 74375, ("eddy-current",), marks=pytest.mark.long),
+        pytest.param("bouc-wen", "uneven", 3584, ("backlash",), marks=pytest.mark.long),  # missed
     ],
 )
 def test_no_name_makes_up_for_what_lies_between_few_samples(law, imperfect, draw, names, names_only):

@@ -119,6 +119,7 @@ def lagged(u: np.ndarray, constant: float = 0.03) -> np.ndarray:
     return z
 
 
+@pytest.mark.long
 def test_a_lag_makes_no_law_with_dynamics_of_its_own_the_right_one():
     """`hammerstein`, a Bouc-Wen loop before an oscillator, holds a lag in itself, and Bouc-Wen alone does not."""
     data, names = Dataset(records(lagged)), ("hammerstein", "bouc-wen", "dahl")

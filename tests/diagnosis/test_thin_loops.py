@@ -57,6 +57,7 @@ def test_a_thin_clean_loop_is_left_to_the_model(alpha, noise, seed):
     assert accuracy(found.after.problem.system, unseen, found.after.values).rmse < 1.15 * rms
 
 
+@pytest.mark.long
 def test_a_linear_device_with_a_delay():
     likely = ("backlash", "bias", "input-lag", "output-lag", "rayleigh-hysteresis", "resonance", "transport-delay")
     found = diagnose(late_lines(), Question("bouc-wen", among=likely, options=DiagnosisOptions(jobs=1)))

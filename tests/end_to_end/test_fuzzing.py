@@ -10,6 +10,7 @@ SLOW = ("results folders", "studies of diagnosis")
 """Each input takes seconds."""
 
 
+@pytest.mark.long
 def test_nothing_that_is_read_ends_in_a_traceback_or_in_another_number():
     counts = fuzz_all([target for target in TARGETS if not target.name.startswith(SLOW)], inputs=140, seed=3)
     assert not [failure for count in counts.values() for failure in count.failures]

@@ -81,6 +81,7 @@ def wait_for(condition, seconds: float = 90.0) -> None:
     assert condition()
 
 
+@pytest.mark.long
 def test_a_dask_worker_killed_in_the_middle_loses_nothing(tmp_path):
     pytest.importorskip("distributed", reason="Dask distributed is not installed")
     study = write_study(tmp_path, OPTIMIZERS, budget=6000)

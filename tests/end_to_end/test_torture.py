@@ -16,6 +16,7 @@ def torture():
     return module
 
 
+@pytest.mark.long
 def test_an_ill_treated_study_is_the_one_left_in_peace(torture, tmp_path):
     bench = torture.Bench(tmp_path, variants=1, trials=1, budget=1500, timeout=6.0)
     assert "24 trials, 16 bad ones of 16 kinds" in torture.bad_trials(bench)

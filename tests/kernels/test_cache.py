@@ -8,6 +8,7 @@ import subprocess
 import sys
 from collections import Counter
 
+import pytest
 from numba.core.registry import CPUDispatcher
 
 import hysteresis_bench.kernels
@@ -36,6 +37,7 @@ def called(cache, *kinds):
     return done.stdout.split()
 
 
+@pytest.mark.long
 def test_processes_that_fill_a_fresh_cache_in_turn_agree(tmp_path):
     """Every process finds the kernels of those before it in the cache and adds one; the last finds all."""
     kinds, known = ("shared clamped", "shared", "own", "own clamped"), []

@@ -52,6 +52,7 @@ def curves() -> Dataset:
     return Dataset(tuple(records), tuple(record.name for record in records[1::3]))
 
 
+@pytest.mark.long
 def test_a_density_takes_the_place_of_a_law_that_does_not_follow(names_only):
     with names_only():
         asked = Question("ferroelectric", among=("output-lag", "drift"), options=DiagnosisOptions(jobs=1))

@@ -31,6 +31,7 @@ def found_by(dataset, asked, among=None):
     return question, search(prepared, gather(prepared.views), question)
 
 
+@pytest.mark.long
 def test_a_wrong_law_is_told_and_nothing_is_named_in_its_place(tmp_path, ask_only):
     ask_only(["bouc-wen", "dahl", "ferroelectric", "preisach"])
     question = Question("bouc-wen", among=("rayleigh-hysteresis", "saturation", "backlash", "creep"), options=OPTIONS)
@@ -54,6 +55,7 @@ def test_a_wrong_law_is_told_and_nothing_is_named_in_its_place(tmp_path, ask_onl
     assert "stands in for the law" in page
 
 
+@pytest.mark.long
 def test_what_another_law_explains_is_no_slow_noise(ask_only, names_only):
     """Jiles-Atherton loops asked of a Preisach law: the rest looks like slow noise, and a saturation was named."""
     ask_only(["bouc-wen", "jiles-atherton"])
@@ -91,6 +93,7 @@ def creeping(names_only):
         return found_by(data_of("ferroelectric", "creep"), "bouc-wen", likely)
 
 
+@pytest.mark.long
 def test_an_effect_that_the_better_law_needs_too_stays_named(creeping):
     question, found = creeping
     doubted = doubt(found, question, ("ferroelectric", "dahl"), ("ferroelectric", "dahl"))
@@ -113,13 +116,16 @@ def test_where_no_law_may_be_blamed_what_all_of_them_need_is_named(creeping):
     assert list(doubted.holding(tuple(told.rivals))) == ["creep"]
 
 
-@pytest.mark.parametrize(("effects", "imperfect"), [((), ""), (("input-lag",), ""), ((), "coloured")])
+@pytest.mark.parametrize(
+    ("effects", "imperfect"), [((), ""), (("input-lag",), ""), pytest.param((), "coloured", marks=pytest.mark.long)]
+)
 def test_a_right_law_is_not_blamed(effects, imperfect):
     question, found = found_by(data_of("bouc-wen", *effects, imperfect=imperfect), "bouc-wen")
     laws = ("preisach", "prandtl-ishlinskii-modified", "ferroelectric")
     assert doubt(found, question, laws, laws) == Doubt()
 
 
+@pytest.mark.long
 def test_a_richer_law_that_follows_a_curve_as_well_is_not_the_cause(ask_only):
     """Bouc-Wen behind clearances of several widths: the generalized law, of twice the parameters, predicts as well."""
     ask_only(["bouc-wen", "bouc-wen-generalized"])

@@ -36,6 +36,7 @@ def around_a_wrong_one(names_only):
     return found_around("jiles-atherton", ("output-lag", "drift"), names_only)
 
 
+@pytest.mark.long
 def test_the_law_that_it_contains_follows_as_well(around):
     assert around.selection.adopted(around.best) == ("output-lag",)
     assert simpler_law("bouc-wen-generalized", around, ("bouc-wen", "ferroelectric"), 0) == "bouc-wen"

@@ -90,6 +90,7 @@ def test_a_course_is_told_in_words(y, words):
     assert course(X, y) == words
 
 
+@pytest.mark.long
 def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out():
     """A curve has no dynamics: with it a law of another shape is just another law, where it is no cause."""
     rng, records = np.random.default_rng(0), []
@@ -109,6 +110,7 @@ def test_a_law_far_from_the_noise_takes_the_shape_that_predicts_what_is_left_out
     assert unseen_rmse(fitter, found) < 0.3 * unseen_rmse(fitter, bare)
 
 
+@pytest.mark.long
 def test_free_forms_join_far_from_the_noise_where_nearly_all_that_is_left_out_is_predicted():
     """Two relaxations and a square root of time, no formula of the program's, around a law a little wrong."""
     rng, records = np.random.default_rng(0), []

@@ -49,6 +49,7 @@ def test_spikes_that_hide_from_their_neighbours_are_found_in_what_is_left():
     assert "mixed (at time" in mended.note
 
 
+@pytest.mark.long
 def test_an_effect_beside_them_is_named_and_they_are_told():
     likely = ("asymmetry", "bias", "fatigue", "saturation", "stop-above", "stop-below")
     found = diagnose(data(("stop-above",)), replace(QUESTION, among=likely))
