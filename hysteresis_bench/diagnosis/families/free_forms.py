@@ -114,8 +114,8 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
 
 def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
     """Two formulas may come near the noise together where one effect has another formula: a free form of the family of
-    one of them that does clearly better than both on samples left out is one claim less. So it must do than what would
-    do as well in the place of one of them."""
+    one of them that does clearly better than both on samples left out is one claim less. So it must do than another
+    name that would do as well in the place of one of them."""
     effect, adopted = selection.fitter.stack.effect, selection.adopted(current)
     forms = [form for form in selection.forms if form not in current.names and not effect(form).estimates]
     tried = []
@@ -127,8 +127,9 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
     fitting = [one for one in tried if fits(selection, one)]
     if not fitting:
         return current
-    rivals = (one for name in adopted for one in selection.rivals(current, name).values())
-    least = min([current, *rivals], key=lambda one: one.cv_rmse)
+    rivals = [selection.rivals(current, name) for name in adopted]
+    named = [one for each in rivals for key, one in each.items() if key not in selection.forms]
+    least = min([current, *named], key=lambda one: one.cv_rmse)
     clear = [one for one in fitting if advantage(one.left_out, least.left_out, selection.fitter.blocks) > CLEAR]
     return selection.workers.map([("refitted", selection.simplest(clear))])[0] if clear else current
 

@@ -17,3 +17,13 @@ def test_a_name_that_does_as_well_keeps_it_out(other, taken):
     selection.forms = ("c",)
     selection.fitter.stack.effect = lambda name: SimpleNamespace(estimates=False, family="one")
     assert _in_place_of_two(selection, current) is (form if taken else current)
+
+
+def test_the_form_itself_beside_one_of_them_does_not():
+    """With more parameters it does a little better, and is one claim more."""
+    current, form, beside = fit("ab", 1.05 * FLOOR), fit("c", 1.0 * FLOOR), fit("bc", 0.99 * FLOOR)
+    far = [fit(names, leaving(1.0)) for names in ("", "a", "b", "ac")]
+    selection = selection_of(current, form, beside, *far, candidates="abc")
+    selection.forms = ("c",)
+    selection.fitter.stack.effect = lambda name: SimpleNamespace(estimates=False, family="one")
+    assert _in_place_of_two(selection, current) is form
