@@ -58,7 +58,9 @@ def here(tmp_path, monkeypatch):
     ("asked", "after", "file"),
     [
         ("diagnose loop.csv --model polynomial --jobs 1", 12, "diagnosis.json"),
-        ("diagnose curve.csv --models polynomial,dahl --jobs 1", 6, "diagnosis.json"),
+        pytest.param(
+            "diagnose curve.csv --models polynomial,dahl --jobs 1", 6, "diagnosis.json", marks=pytest.mark.long
+        ),
         ("compare loop.csv --models polynomial,dahl,lugre --jobs 1", 2, "laws.csv"),
         ("fit loop.csv --model polynomial --seed 3", 1, "model.json"),
     ],

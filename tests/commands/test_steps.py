@@ -43,6 +43,7 @@ def data(tmp_path):
     return tmp_path
 
 
+@pytest.mark.long
 def test_slow_plugins_in_a_pipe(data):
     """Two commands side by side, as they mostly wait: watched for 12 s, then stopped as by Ctrl-C."""
     environment = {**os.environ, "PYTHONPATH": str(ROOT), "PYTHONUNBUFFERED": "1"}

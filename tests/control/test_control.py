@@ -384,6 +384,7 @@ def test_command_says_what_it_needs(tmp_path, invoke, arguments, words):
     assert words in " ".join(told.stderr.split())
 
 
+@pytest.mark.long
 def test_command_on_the_rig_beats_the_feed_forward_everywhere_and_writes_a_page(tmp_path, invoke):
     path = tmp_path / "model.json"
     write_model(path, model())

@@ -56,6 +56,7 @@ def test_a_script_can_be_read_at_a_glance(name):
     assert SHORTEST <= len((EXAMPLES / name).read_text(encoding="utf-8").splitlines()) <= LONGEST
 
 
+@pytest.mark.long
 def test_the_notebook_runs_and_holds_no_outputs(tmp_path, environment, monkeypatch):
     for name in ("PYTHONPATH", "MPLBACKEND"):
         monkeypatch.setenv(name, environment[name])

@@ -20,6 +20,7 @@ def wheel(tmp_path_factory):
     return next(folder.glob("*.whl"))
 
 
+@pytest.mark.long
 def test_the_session_ends_with_a_page(tmp_path, wheel):
     """Its first command installs the wheel; what it needs is there already. The kernels are the tests' own compiled
     ones, for the compiler's time: the wheel itself reads and checks the file."""

@@ -32,7 +32,10 @@ plugin = "bipop-cmaes"
 plugin = "random-search"
 """
 missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
-pytestmark = pytest.mark.skipif(bool(missing), reason=f"not installed: {', '.join(missing)} (the extra `test`)")
+pytestmark = [
+    pytest.mark.long,
+    pytest.mark.skipif(bool(missing), reason=f"not installed: {', '.join(missing)} (the extra `test`)"),
+]
 
 
 @pytest.fixture(scope="module")

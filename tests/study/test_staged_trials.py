@@ -112,6 +112,7 @@ def test_a_model_that_no_controller_can_use_is_told_and_keeps_its_other_numbers(
     assert f"tracking_rmse.{SLIDING}" not in row
 
 
+@pytest.mark.long
 def test_the_courses_of_the_best_trials_loops_are_kept_and_drawn(tmp_path, monkeypatch):
     monkeypatch.setattr(stages, "compare", partial(stages.compare, rate=2000.0))
     built = {"static": build_problem(STUDY.problem[0], STUDY.seed, None)}
