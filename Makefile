@@ -17,9 +17,9 @@ test: .venv/installed-test
 	$(BIN)/ruff format --check .
 	$(BIN)/ruff check .
 	$(BIN)/mypy
-	$(BIN)/python -m pytest -n auto --dist loadfile
+	$(BIN)/python -m pytest -n auto --dist loadfile  # what the tests of a file share is made once
 
-# What is too long for every change: whole diagnoses, ill-treated studies.
+# What is too long for every change: whole diagnoses, ill-treated studies, built wheels.
 test-long: .venv/installed-test
 	$(BIN)/python -m pytest -n auto --dist worksteal -m long
 

@@ -76,8 +76,9 @@ def run_with_diagnosis(
 def write_closing(study: Study, data: Path, results: Path, jobs: int | None = None) -> None:
     """Diagnose what the study's [closing] asks for, into the sub-folder closing/ of its results.
 
-    data : the folder where relative data files are looked for. A diagnosis that failed is tried again by the next
-    run, one that is there is kept as long as the same is asked. A failure ends no study: closing.json tells it.
+    data : the folder where relative data files are looked for;  jobs : processes, as of DiagnosisOptions
+    A diagnosis that failed is tried again by the next run, one that is there is kept as long as the same is asked.
+    A failure ends no study: closing.json tells it.
     """
     asked = asked_for(study)
     before = read_closing(Reader(results))

@@ -112,6 +112,13 @@ def test_the_same_diagnosis_is_kept(closed):
     assert "A delay is not considered." in section(closed)
 
 
+def test_one_process_or_two_give_the_same_diagnosis(closed, tmp_path):
+    study = read_study(write(tmp_path))[0].model_dump_json()
+    assert run_closing(ClosingTicket(study, str(tmp_path), str(tmp_path), jobs=2)).status == "done"
+    for name in ("diagnosis.json", "model.json", "responses.csv"):
+        assert (tmp_path / name).read_bytes() == (closed / "closing" / name).read_bytes(), name
+
+
 def test_a_diagnosis_that_failed_is_told(closed, tmp_path):
     study = write(tmp_path)
     data = pd.read_csv(tmp_path / "lagging.csv")

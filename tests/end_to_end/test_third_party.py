@@ -32,10 +32,7 @@ plugin = "bipop-cmaes"
 plugin = "random-search"
 """
 missing = [name for name in NEEDED if importlib.util.find_spec(name) is None]
-pytestmark = [
-    pytest.mark.long,
-    pytest.mark.skipif(bool(missing), reason=f"not installed: {', '.join(missing)} (the extra `test`)"),
-]
+pytestmark = pytest.mark.skipif(bool(missing), reason=f"not installed: {', '.join(missing)} (the extra `test`)")
 
 
 @pytest.fixture(scope="module")
@@ -97,6 +94,7 @@ def test_its_own_tests_pass(fresh, tmp_path):
     assert " passed" in told(fresh / "python", "-m", "pytest", "-q", "-p", "no:cacheprovider", own, cwd=tmp_path)
 
 
+@pytest.mark.long
 def test_it_runs_in_a_study(fresh, tmp_path):
     (tmp_path / "study.toml").write_text(STUDY, encoding="utf-8")
     told(fresh / "hysteresis-bench", "run", "study.toml", "--jobs", 1, "--out", "results", cwd=tmp_path)

@@ -8,8 +8,7 @@ import pytest
 
 from hysteresis_bench import compare, diagnose, fit, registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.diagnose import diagnose as answer
-from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
+from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
 from hysteresis_bench.fit.fitting import FitOptions
 from hysteresis_bench.fit.settling import passed
@@ -109,9 +108,8 @@ def test_fit_compare_and_diagnose_say_so():
     options = DiagnosisOptions(jobs=1, settle=True, laws=("dahl",))
     assert said in fit(moved, "dahl", options=FitOptions(budget=600, settle=True)).warnings
     assert said in compare(moved, options.laws, options=options).words
-    for model in ("dahl", ""):
-        question = Question(model, among=("creep",), options=options)
-        assert " ".join(answer(moved, question).warnings).count(said) == 1
+    for model in ("dahl", None):
+        assert " ".join(diagnose(moved, model, options=options).warnings).count(said) == 1
 
 
 def test_a_settled_period_is_fitted_and_predicted_as_one():
