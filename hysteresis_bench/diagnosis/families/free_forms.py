@@ -138,7 +138,7 @@ def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], mos
     """With the free forms that the system asks for, each with the names that are found beside it, `most` in all."""
     current, seen, room = start, {start.names}, max(len(selection.adopted(start)) + 1, CLAIMS)
     for _ in range(CURVES):
-        selection.candidates = (*names, *selection.forms)
+        selection.candidates = _counted(selection, names, current)
         beside = len(selection.adopted(current)) < room
         better = _freed(selection, current, [form for form in selection.forms if form not in current.names], beside)
         if better is None or better.names in seen:
@@ -188,7 +188,7 @@ def _clearly(selection: Selection, current: Hypothesis, system: Hypothesis) -> b
     """Does a system do clearly better, and explain more than what then remains?"""
     gain = advantage(system.left_out, current.left_out, selection.fitter.blocks)
     enough = gain > CLEAR and selection.share(current, system) > NAMED
-    return enough and selection.needed(current, system, len(selection.candidates))
+    return enough and selection.needed(current, system, len({*selection.candidates, *selection.forms}))
 
 
 def _thinned(selection: Selection, current: Hypothesis) -> Hypothesis:
