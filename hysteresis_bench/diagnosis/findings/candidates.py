@@ -74,9 +74,9 @@ def candidates_of(found: Found, ties: Sequence[Tie], stand_ins: Sequence[str]) -
 
 
 def _candidate(found: Found, name: str, ties: Sequence[Tie]) -> Candidate | None:
-    last, adopted = found.selection.rounds[-1], name in found.best.names
-    smaller = found.without[name] if adopted else last.current
-    larger = found.best if adopted else last.hypotheses.get(name)
+    adopted = name in found.best.names
+    smaller = found.without[name] if adopted else found.best
+    larger = found.best if adopted else found.beyond.hypotheses.get(name)
     if larger is None:
         return None
     test, gain = found.selection.compared(smaller, larger)

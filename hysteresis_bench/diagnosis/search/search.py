@@ -22,7 +22,7 @@ from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
-from hysteresis_bench.diagnosis.search.selection import Selection
+from hysteresis_bench.diagnosis.search.selection import Round, Selection
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.progress import Step
 
@@ -41,7 +41,7 @@ class Found:
     order : the adopted effects, the one that helps most first, each with the system that it completes
     given_up : what predicted excitations left out worse, or what one loop cannot test
     rivals : for each adopted effect, what would do as well in its place, and that system
-    without : for each adopted effect, the selected system without it
+    without : for each adopted effect, the selected system without it;  beyond : every other candidate on top of it
     impossible : effects that cannot be tried, with the reason
     """
 
@@ -57,6 +57,7 @@ class Found:
     given_up: Fallback | None
     rivals: Mapping[str, Mapping[str, Hypothesis]]
     without: Mapping[str, Hypothesis]
+    beyond: Round
     impossible: Mapping[str, str]
 
     @cached_property
@@ -105,6 +106,7 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
             follows=answers,
             rivals={},
             without={},
+            beyond=selection.rounds[0],
             order=(),
             given_up=None,
             impossible=impossible,
@@ -155,6 +157,7 @@ def _ending_with(found: Found, best: Hypothesis) -> Found:
         final=with_simplest_offset(selection, best),
         rivals={name: selection.rivals(best, name) for name in selection.adopted(best)},
         without=without,
+        beyond=selection.tried_on(best),
         order=order,
         given_up=given_up,
     )

@@ -66,7 +66,6 @@ class Round:
     current: Hypothesis
     hypotheses: Mapping[str, Hypothesis]
     tests: Mapping[str, NestedTest]
-    advantages: Mapping[str, float]
     chosen: str
 
 
@@ -93,12 +92,13 @@ class Selection:
         current = base
         visited = {current.names: current.rmse}
         while True:
-            found = self._round(current)
-            self.rounds.append(found)
-            if found.chosen and len(self.adopted(current)) < most:
+            found = self.tried_on(current) if len(self.adopted(current)) < most else None
+            if found:
+                self.rounds.append(found)
+            if found and found.chosen:
                 better = self.settled(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
             else:
-                better = self.exchanged(current) or self._paired(found, most) or current
+                better = self.exchanged(current) or (found and self._paired(found, most)) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
                 return current
             current = better
@@ -187,16 +187,16 @@ class Selection:
             len(hypothesis.names & set(self.fitter.stack.model.offers)),
         ]
 
-    def _round(self, current: Hypothesis) -> Round:
+    def tried_on(self, current: Hypothesis) -> Round:
+        """Every candidate on top of a system, and which should join."""
         hypotheses = self._extensions(current)
         if min((one.rmse for one in hypotheses.values()), default=0.0) > REACHED * self.floor:
             hypotheses = self._sought(hypotheses)
         tests = {name: self.fitter.test(current, hypothesis) for name, hypothesis in hypotheses.items()}
-        gains = {name: advantage(t.left_out, current.left_out, self.fitter.blocks) for name, t in hypotheses.items()}
         passed = {name: t for name, t in hypotheses.items() if self.needed(current, t, len(self.candidates))}
         winner = self.simplest(list(passed.values())) if passed else None
         chosen = next((name for name, hypothesis in passed.items() if hypothesis is winner), "")
-        return Round(current, hypotheses, tests, gains, chosen)
+        return Round(current, hypotheses, tests, chosen)
 
     def _paired(self, found: Round, most: int) -> Hypothesis | None:
         """Two effects at once, where the model is wrong and no single one passes: what one of them leaves may hide

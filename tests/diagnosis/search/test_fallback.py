@@ -129,11 +129,13 @@ def test_what_may_stand_in_for_the_law_leaves_where_one_loop_cannot_tell():
         given_up=None,
         rivals={"saturation": {}},
         without={},
+        beyond=selection.tried_on(best),
         impossible={},
     )
     fewer = with_fewer(found, ["saturation"])
     assert selection.adopted(fewer.best) == ()
     assert fewer.order == ()
+    assert fewer.beyond.current is fewer.best  # what the table of candidates stands on
     assert fewer.given_up == Fallback(("saturation",), best.rmse, fewer.best.rmse, base.rmse, tested=False)
 
 
