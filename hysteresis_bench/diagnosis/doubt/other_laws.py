@@ -14,7 +14,7 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import fitter_of
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
-from hysteresis_bench.diagnosis.search.selection import Selection
+from hysteresis_bench.diagnosis.search.selection import BETTER, Selection
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.signals import Record
 
@@ -77,17 +77,22 @@ class OtherLaws:
         return Contender(law, names, fitter.unseen(system), len(system.values))
 
     def _thinned(self, fitter: Fitter, effects: Sequence[str]) -> tuple[Hypothesis, tuple[str, ...]]:
+        """Without those that are not needed: all at once where none of them is missed then, or else one by one."""
         names = list(effects)
-        needs = Selection(fitter, Workers(fitter, 1), self.floor, tuple(names))
+        needed = Selection(fitter, Workers(fitter, 1), self.floor, tuple(names)).needed
         current = self._fitted(fitter, names)
         while names:
             smaller = {name: fitter.reduced(current, name) for name in names}
-            spare = [name for name in names if not needs.needed(smaller[name], current)]
+            spare = [name for name in names if not needed(smaller[name], current)]
             if not spare:
                 break
             least = min(spare, key=lambda name: smaller[name].cv_rmse)
-            names.remove(least)
-            current = smaller[least]
+            rest = fitter.followed(replace(smaller[least], names=current.names - {*spare}))
+            # where a smaller system leaves less, the search had ended elsewhere, and nothing is known of the others
+            elsewhere = min(one.rmse for one in smaller.values()) < BETTER * current.rmse
+            if elsewhere or needed(rest, current):
+                spare, rest = [least], smaller[least]
+            names, current = [name for name in names if name not in spare], rest
         # with more effects than are needed a search may have ended elsewhere
         if len(names) < len(effects):
             current = min(current, self._fitted(fitter, names), key=lambda one: one.rmse)
