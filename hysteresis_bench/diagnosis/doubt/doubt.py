@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.carrying import carrying
-from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause
+from hysteresis_bench.diagnosis.doubt.cause import SHAPES, Cause, law_as_cause
 from hysteresis_bench.diagnosis.doubt.other_laws import OFFSET, Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
@@ -40,6 +40,12 @@ class Doubt:
     untested: bool = False
     carrying: tuple[str, ...] = ()
     free: tuple[str, ...] = ()
+
+    @property
+    def undecided(self) -> bool:
+        """May what was adopted be a part of the right law, though no other law does better for certain?"""
+        cause = self.cause
+        return self.agreement is not None or self.untested or (cause.as_well if cause else bool(self.free))
 
     def asks_for(self, adopted: Sequence[str]) -> list[str]:
         """Effects that are needed, and for which nothing alike was adopted."""
@@ -82,10 +88,13 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
     forms = tuple(forms_of(final.effects))
     known = Doubt(carrying=carrying(found), free=() if fits(found.selection, found.best) else forms)
-    if not found.follows or (final.rmse <= REACHED * floor and not forms):
+    imitated = final.rmse <= REACHED * floor and not forms
+    if not found.follows or (imitated and sum(map(is_shape, final.effects)) < SHAPES):
         return known
     few = thinned(views_of(stack.records), SCREENED)
-    around = OtherLaws(asked, stack, few, in_question(found), floor, options.seed, _values(found))
+    # together with a law, what has no dynamics may make another law: does one follow without?
+    effects = tuple(name for name in in_question(found) if not (imitated and is_shape(name)))
+    around = OtherLaws(asked, stack, few, effects, floor, options.seed, _values(found))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
         untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied

@@ -34,7 +34,7 @@ class Diagnosis:
     """What was found.
 
     headline : the verdict as a sentence
-    better_law : a law that does clearly better than the one that was asked about
+    better_law : one that does clearly better than the law that was asked about, or as well with less around it
     agreement : of the laws on what is needed, where this one does not follow the data and none does clearly better
     carrying : of the stand-ins, what carries the loop alone: another law
     stand_ins : adopted, and in the final model, but not named: not needed around a law that does better, or as well,

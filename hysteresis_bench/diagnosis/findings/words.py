@@ -133,7 +133,7 @@ def headline(outcome: Outcome) -> str:
         said = f"The model {'may lack' if outcome.doubtful else 'lacks'} {named}: {moved}"
     elif outcome.refuted and outcome.stand_ins:
         said = f"No effect is named, as what helps on what was fitted does not carry over: with it, {moved}"
-    elif outcome.stand_ins and (doubt.agreement or doubt.untested or (doubt.free and not outcome.cause)):
+    elif outcome.stand_ins and doubt.undecided:
         said = f"No effect is named, as what helps may be the law's own: with it, {moved}"
     elif (outcome.cause or doubt.carrying) and outcome.stand_ins:
         said = f"No effect is named, as the law itself is the cause: with what makes up for it, {moved}"
@@ -166,7 +166,8 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
     if cause:
         better = f"{cause.model} with {listed(cause.effects)}" if cause.effects else f"{cause.model} alone"
         own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
-        yield f"What is left is the law's: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
+        words = "Another law follows without it" if cause.as_well else "What is left is the law's"
+        yield f"{words}: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
         yield f"{cause.own:.3g}."
     elif outcome.doubt.carrying:
         carried = f"{listed(outcome.doubt.carrying)} carries the loop, without which {outcome.model} has next to none:"

@@ -8,6 +8,7 @@ from typing import Any
 
 import pandas as pd
 
+from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.findings.diagnosis_file import MODEL, KeptDiagnosis, read_diagnosis
 from hysteresis_bench.diagnosis.structure.curves import read_curves
 from hysteresis_bench.errors import UserError
@@ -140,6 +141,8 @@ def _title(found: Mapping[str, Any]) -> str:
         tied = {tie["effect"] for tie in found["ties"]}
         names = [f"{name} or its like" if name in tied else name for name in effects]
         return f"{model} {'may lack' if found['doubtful'] else 'lacks'} {listed(names)}{more}"
+    if better and Cause(**better).as_well:
+        return f"{model} may not be the law here: {better['model']} follows as well, with less around it"
     if better:
         return f"{model} is not the law here: {better['model']} does better"
     if carrying := found["carrying"]:

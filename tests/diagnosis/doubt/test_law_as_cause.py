@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis, w
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.search import search
+from hysteresis_bench.diagnosis.search.selection import REACHED
 from hysteresis_bench.report.diagnosis.page import write_diagnosis_page
 
 RECORDS = ("slow", "fast", "nested", "mixed")
@@ -134,3 +135,21 @@ def test_a_richer_law_that_follows_a_curve_as_well_is_not_the_cause(ask_only):
     found = diagnose(data, Question("bouc-wen", among=("backlash", "creep", "saturation"), options=OPTIONS))
     assert (found.effects, found.better_law) == (("play-bank",), None)
     assert found.after.held_out.rmse < 1.2 * found.floor
+
+
+@pytest.mark.parametrize("law", ["energy-based", "jiles-atherton"])
+def test_two_names_that_make_another_law_are_not_named(law, names_only):
+    """An energy-based law is Jiles-Atherton's behind a dead zone and before a saturation, to the noise. Where both are
+    there, no other law follows without."""
+    records, hidden = ("slow", "fast", "nested", "sweep", "mixed"), ("input-dead-zone", "saturation")
+    settings = {"model": law, "draw": 5401, "effects": () if law == "energy-based" else hidden, "hide": 0}
+    data = measure("hidden-effects", *records, settings=settings, seed=1).split(records[-1:])
+    with names_only():
+        question, found = found_by(data, "jiles-atherton", ())
+    both = found.thin.refitted(found.thin.from_anywhere(found.best.names | {*hidden}))
+    assert both.rmse < REACHED * found.selection.floor
+    found.selection.candidates = hidden
+    found = replace(found, best=both, final=both)
+    doubted = doubt(found, question, ("energy-based", "preisach"), ())
+    assert (doubted.cause.model if doubted.cause else "") == ("energy-based" if law == "energy-based" else "")
+    assert doubted.holding(hidden) == ({} if law == "energy-based" else {name: () for name in hidden})
