@@ -150,6 +150,6 @@ def test_two_names_that_make_another_law_are_not_named(law, names_only):
     assert both.rmse < REACHED * found.selection.floor
     found.selection.candidates = hidden
     found = replace(found, best=both, final=both)
-    doubted = doubt(found, question, ("energy-based", "preisach"), ())
+    doubted = doubt(found, question, ("energy-based",), ())
     assert (doubted.cause.model if doubted.cause else "") == ("energy-based" if law == "energy-based" else "")
     assert doubted.holding(hidden) == ({} if law == "energy-based" else {name: () for name in hidden})
