@@ -138,7 +138,7 @@ def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], mos
     """With the free forms that the system asks for, each with the names that are found beside it, `most` in all."""
     current, seen, room = start, {start.names}, max(len(selection.adopted(start)) + 1, CLAIMS)
     for _ in range(CURVES):
-        selection.candidates = _counted(selection, names, current)
+        selection.candidates = (*names, *selection.forms)
         beside = len(selection.adopted(current)) < room
         better = _freed(selection, current, [form for form in selection.forms if form not in current.names], beside)
         if better is None or better.names in seen:
@@ -177,8 +177,11 @@ def _fixed(selection: Selection, found: list[Hypothesis]) -> list[Hypothesis]:
 def _in_place(selection: Selection, current: Hypothesis, forms: list[str]) -> list[Hypothesis]:
     """Every free form in the place of each name of its family, whose part it may not take over from beside it, such as
     a hum's fundamental from its overtone; or of a name that is tied with one of its family."""
-    effect = selection.fitter.stack.effect
+    effect, candidates = selection.fitter.stack.effect, selection.candidates
+    # a name tells a family as well as a free form does, which takes ten times as long to fit
+    selection.candidates = tuple(one for one in candidates if one not in selection.forms or one in current.names)
     alike = {name: (name, *selection.rivals(current, name)) for name in selection.adopted(current)}
+    selection.candidates = candidates
     pairs = [(n, f) for n in alike for f in forms if effect(f).family in {effect(one).family for one in alike[n]}]
     smaller = {name: selection.without(current, name) for name, _ in pairs}
     return selection.workers.map([("extended", smaller[name], form, current.values) for name, form in pairs])
@@ -188,7 +191,7 @@ def _clearly(selection: Selection, current: Hypothesis, system: Hypothesis) -> b
     """Does a system do clearly better, and explain more than what then remains?"""
     gain = advantage(system.left_out, current.left_out, selection.fitter.blocks)
     enough = gain > CLEAR and selection.share(current, system) > NAMED
-    return enough and selection.needed(current, system, len({*selection.candidates, *selection.forms}))
+    return enough and selection.needed(current, system, len(selection.candidates))
 
 
 def _thinned(selection: Selection, current: Hypothesis) -> Hypothesis:
