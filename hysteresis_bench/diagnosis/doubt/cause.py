@@ -75,7 +75,7 @@ def law_as_cause(
     """
     fitter, floor = found.thin, found.selection.floor
     curves, shapes = forms_of(own.effects), sum(map(is_shape, own.effects))
-    imitated = shapes >= SHAPES and not curves
+    imitated = made_of_shapes(own, floor)
     own_few = replace(fitter, stack=replace(fitter.stack, records=few))
     left = own_few.errors(found.final.names, fitter.fitted(found.final)[1])
     reach = float(np.sqrt(np.mean(left**2))) * (REACHED if curves or imitated else 1.0)
@@ -90,6 +90,12 @@ def law_as_cause(
         as_well = [one for one in as_well if not (imitated and any(map(is_shape, one.effects)))]
         best = min(as_well, key=lambda one: one.rmse, default=NOBODY)
     return None if best is NOBODY else Cause(best.model, best.effects, best.rmse, own.rmse)
+
+
+def made_of_shapes(one: Contender, floor: float) -> bool:
+    """Do formulas reach the noise, `SHAPES` of them without dynamics? With the law they may make another one."""
+    shapes = sum(map(is_shape, one.effects))
+    return one.rmse <= REACHED * floor and shapes >= SHAPES and not forms_of(one.effects)
 
 
 def clearly_better(one: Contender, other: Contender, floor: float, blocks: Blocks) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.carrying import carrying
-from hysteresis_bench.diagnosis.doubt.cause import SHAPES, Cause, law_as_cause
+from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause, made_of_shapes
 from hysteresis_bench.diagnosis.doubt.other_laws import OFFSET, Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
@@ -88,8 +88,8 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
     forms = tuple(forms_of(final.effects))
     known = Doubt(carrying=carrying(found), free=() if fits(found.selection, found.best) else forms)
-    imitated = final.rmse <= REACHED * floor and not forms
-    if not found.follows or (imitated and sum(map(is_shape, final.effects)) < SHAPES):
+    imitated = made_of_shapes(final, floor)
+    if not found.follows or (final.rmse <= REACHED * floor and not forms and not imitated):
         return known
     few = thinned(views_of(stack.records), SCREENED)
     # together with a law, what has no dynamics may make another law: does one follow without?

@@ -166,7 +166,7 @@ def _of_the_law(outcome: Outcome) -> Iterator[str]:
     if cause:
         better = f"{cause.model} with {listed(cause.effects)}" if cause.effects else f"{cause.model} alone"
         own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
-        words = "Another law follows without it" if cause.as_well else "What is left is the law's"
+        words = "Another law follows as well" if cause.as_well else "What is left is the law's"
         yield f"{words}: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
         yield f"{cause.own:.3g}."
     elif outcome.doubt.carrying:
