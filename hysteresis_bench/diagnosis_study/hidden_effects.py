@@ -160,8 +160,18 @@ class HiddenEffects(DrivenRig):
         return float(share * self._span)
 
     @cached_property
+    def _bare(self) -> Array:
+        """The hysteresis alone, (records, fine samples)."""
+        return np.stack([self._response(*self._setting(record), {}) for record in CALIBRATED])
+
+    @cached_property
     def _span(self) -> float:
-        return max(float(np.ptp(self._response(*self._setting(name), {}))) for name in CALIBRATED)
+        return float(np.max(np.ptp(self._bare, axis=1)))
+
+    @cached_property
+    def _top(self) -> float:
+        """The output at the largest input, coming from rest."""
+        return float(self._hysteresis(np.linspace(0.0, self._example.amplitude, SAMPLES * FINER))[-1])
 
     @cached_property
     def _strengths(self) -> dict[str, float]:
@@ -182,10 +192,9 @@ class HiddenEffects(DrivenRig):
 
     def _change(self, name: str, strength: float) -> float:
         """RMS of what an effect alone changes, beyond a gain, an offset and a share of the input."""
-        bare = [self._response(*self._setting(record), {}) for record in CALIBRATED]
         changed = [self._response(*self._setting(record), {name: strength}) for record in CALIBRATED]
         drives = [self._setting(record)[1] for record in CALIBRATED]
-        y, columns = np.concatenate(bare), np.concatenate(drives)
+        y, columns = self._bare.ravel(), np.concatenate(drives)
         target = np.concatenate(changed) - y
         basis = np.column_stack([np.ones(y.size), y / np.ptp(y), columns / np.ptp(columns)])
         left = target - basis @ np.linalg.lstsq(basis, target, rcond=None)[0]
@@ -199,18 +208,17 @@ class HiddenEffects(DrivenRig):
 
     def _response(self, time: Array, drive: Array, temperature: Array, strengths: Mapping[str, float]) -> Array:
         """The output without noise on the fine grid, with effects of these strengths."""
-        amplitude, p = self._example.amplitude, self._values
-
-        def bare(u: Array) -> Array:
-            return self._law.simulate(Signal(time, np.ascontiguousarray(u[:, None])), p)[:, 0]
-
-        top = float(bare(np.linspace(0.0, amplitude, time.size))[-1])
-        hidden = {}
+        amplitude, top, hidden = self._example.amplitude, self._top, {}
         for name, strength in strengths.items():
             free = tuple(self._stream(name, "more").random(3).tolist())
             given = Hiding(strength, free, time, drive, temperature, float(time[1]), DURATION, FASTEST, amplitude, top)
             hidden[name] = (self._form(name), given)
-        return hiding(bare, hidden)(drive)
+        return hiding(self._hysteresis, hidden)(drive)
+
+    def _hysteresis(self, drive: Array) -> Array:
+        """Of a drive on the fine grid."""
+        time = np.arange(drive.size) * STEP
+        return self._law.simulate(Signal(time, np.ascontiguousarray(drive[:, None])), self._values)[:, 0]
 
     def _form(self, name: str) -> HiddenForm:
         effect = registry.effect(name)
