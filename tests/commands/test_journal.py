@@ -61,7 +61,7 @@ def here(tmp_path, monkeypatch):
         pytest.param(
             "diagnose curve.csv --models polynomial,dahl --jobs 1", 6, "diagnosis.json", marks=pytest.mark.long
         ),
-        ("compare loop.csv --models polynomial,dahl,lugre --jobs 1", 2, "laws.csv"),
+        pytest.param("compare loop.csv --models polynomial,dahl,lugre --jobs 1", 2, "laws.csv", marks=pytest.mark.long),
         ("fit loop.csv --model polynomial --seed 3", 1, "model.json"),
     ],
 )

@@ -27,7 +27,7 @@ CASES = [
     pytest.param(8, "bouc-wen", ("drift", "periodic-disturbance"), marks=pytest.mark.long),
     (9, "jiles-atherton", ()),
     (10, "jiles-atherton", ("fatigue",)),
-    (11, "free-energy", ("output-lag",)),
+    pytest.param(11, "free-energy", ("output-lag",), marks=pytest.mark.long),
 ]
 
 

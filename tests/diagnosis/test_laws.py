@@ -164,7 +164,9 @@ def test_of_a_lone_record_far_from_the_noise_nothing_around_a_law_counts():
     assert found.table["around"].isna().all()
 
 
-@pytest.mark.parametrize(("response", "richer"), [(bent, "preisach"), (growing, "maxwell-slip")])
+@pytest.mark.parametrize(
+    ("response", "richer"), [pytest.param(bent, "preisach", marks=pytest.mark.long), (growing, "maxwell-slip")]
+)
 def test_a_law_of_more_parameters_does_not_take_the_place_of_one_with_an_effect(response, richer):
     asked = Question("", options=replace(ONE, laws=("bouc-wen", richer)))
     found = ranked(Dataset(records(response)), asked, effects_follow=True)

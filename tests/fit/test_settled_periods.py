@@ -101,15 +101,26 @@ def test_what_cannot_tell_says_nothing_of_an_output_that_does_not_come_back():
     assert unsettled([one, flat], asked=True) == unsettled([one, flat], asked=None) == ()
 
 
-def test_fit_compare_and_diagnose_say_so():
+@pytest.fixture
+def moved():
+    """A loop whose end lies above its beginning."""
     loop = period("dahl", "cosine", 0.003, settled=True)
-    moved = Dataset((replace(loop, output=loop.output + 0.1 * np.ptp(loop.output) * PHASE),))
+    return Dataset((replace(loop, output=loop.output + 0.1 * np.ptp(loop.output) * PHASE),))
+
+
+ASKED = DiagnosisOptions(jobs=1, settle=True, laws=("dahl",))
+
+
+def test_fit_and_compare_say_so(moved):
     (said,) = unsettled(moved.records, asked=True)
-    options = DiagnosisOptions(jobs=1, settle=True, laws=("dahl",))
     assert said in fit(moved, "dahl", options=FitOptions(budget=600, settle=True)).warnings
-    assert said in compare(moved, options.laws, options=options).words
-    for model in ("dahl", None):
-        assert " ".join(diagnose(moved, model, options=options).warnings).count(said) == 1
+    assert said in compare(moved, ASKED.laws, options=ASKED).words
+
+
+@pytest.mark.parametrize("model", ["dahl", pytest.param(None, marks=pytest.mark.long)])
+def test_diagnose_says_so_once(moved, model):
+    (said,) = unsettled(moved.records, asked=True)
+    assert " ".join(diagnose(moved, model, options=ASKED).warnings).count(said) == 1
 
 
 def test_a_settled_period_is_fitted_and_predicted_as_one():

@@ -109,7 +109,9 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
     tried = _in_place(selection, without, forms)
     found = [one for one in tried if one.rmse <= current.rmse and one.cv_rmse <= current.cv_rmse]
     clear = [one for one in found if fits(selection, one) and _clearly(selection, without, one)]
-    return selection.workers.map([("extended", selection.simplest(clear), offset)])[0] if clear else current
+    if not clear:
+        return current
+    return _thinned(selection, selection.workers.map([("extended", selection.simplest(clear), offset)])[0])
 
 
 def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
@@ -131,7 +133,9 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
     named = [one for each in rivals for key, one in each.items() if key not in selection.forms]
     least = min([current, *named], key=lambda one: one.cv_rmse)
     clear = [one for one in fitting if advantage(one.left_out, least.left_out, selection.fitter.blocks) > CLEAR]
-    return selection.workers.map([("refitted", selection.simplest(clear))])[0] if clear else current
+    if not clear:
+        return current
+    return _thinned(selection, selection.workers.map([("refitted", selection.simplest(clear))])[0])
 
 
 def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], most: int) -> Hypothesis:

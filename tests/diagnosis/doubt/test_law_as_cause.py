@@ -105,6 +105,7 @@ def test_an_effect_that_the_better_law_needs_too_stays_named(creeping):
     assert list(doubted.holding(found.selection.adopted(found.best))) == ["creep"]
 
 
+@pytest.mark.long
 def test_where_no_law_may_be_blamed_what_all_of_them_need_is_named(creeping):
     question, found = creeping
     assert len(found.selection.adopted(found.best)) > 1

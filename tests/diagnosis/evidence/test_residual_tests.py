@@ -37,7 +37,9 @@ def found(tests: list[ResidualTest]) -> set[str]:
     return {test.name for test in tests if test.significant}
 
 
-@pytest.mark.parametrize("rho", [0.0, 0.5, 0.8, 0.95])
+@pytest.mark.parametrize(
+    "rho", [0.0, pytest.param(0.5, marks=pytest.mark.long), pytest.param(0.8, marks=pytest.mark.long), 0.95]
+)
 def test_false_positives_on_autocorrelated_noise(rho: float) -> None:
     rng = np.random.default_rng(11)
     low, families, hypotheses = Counter[str](), 0, 100

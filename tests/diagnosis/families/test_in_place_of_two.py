@@ -27,3 +27,12 @@ def test_the_form_itself_beside_one_of_them_does_not():
     selection.forms = ("c",)
     selection.fitter.stack.effect = lambda name: SimpleNamespace(estimates=False, family="one")
     assert _in_place_of_two(selection, current) is form
+
+
+def test_what_was_named_beside_both_leaves_where_the_form_does_without():
+    current, form, beside = fit("abd", 1.05 * FLOOR), fit("cd", 1.0 * FLOOR), fit("c", 1.0 * FLOOR)
+    far = [fit(names, leaving(1.0)) for names in ("a", "b", "d", "ab", "ad", "bd", "ac", "bc")]
+    selection = selection_of(current, form, beside, *far, candidates="abd")
+    selection.forms = ("c",)
+    selection.fitter.stack.effect = lambda name: SimpleNamespace(estimates=False, family="b" if name == "d" else "a")
+    assert _in_place_of_two(selection, current) is beside

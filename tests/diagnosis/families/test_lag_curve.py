@@ -17,7 +17,7 @@ HIDDEN = {"output-lag": output_lag, "input-lag": input_lag}
 LAGS = ("input-lag", "output-lag", "transport-delay", "asymmetry")
 
 
-@pytest.fixture(scope="module", params=HIDDEN)
+@pytest.fixture(scope="module", params=["output-lag", pytest.param("input-lag", marks=pytest.mark.long)])
 def asked(request):
     """What hides it, the selection among lags, and what it ends with."""
     rig = HiddenEffects(effects=(request.param,), draw=1, other=True)

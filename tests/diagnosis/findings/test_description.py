@@ -96,6 +96,7 @@ def described(odd, fits, names_only):
         return diagnose(odd, asked(accept_terms=True, fits=fits))
 
 
+@pytest.mark.long
 def test_accepted_terms_bring_the_error_down(odd, described, fits, names_only):
     with names_only():
         plain = diagnose(odd, asked(accept_terms=False, fits=fits))
