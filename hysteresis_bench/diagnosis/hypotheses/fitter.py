@@ -212,13 +212,13 @@ class Fitter:
 
     def drowned(self, hypothesis: Hypothesis, name: str) -> bool:
         """Is an effect's width on the input's axis, such as a dead band's, within the noise of the measured input?
-        Such a band takes small false reversals out, whatever the device does."""
+        Such a band takes small false reversals out, whatever the device does. Of several widths the largest counts."""
         widths = [
             abs(hypothesis.values[f"{name}.{p.name}"] - p.null)
             for p in self.stack.effect(name).parameters
             if p.unit == "{input}" and p.null is not None and f"{name}.{p.name}" in hypothesis.values
         ]
-        return any(0.0 < width < DROWNED * self._input_noise for width in widths)
+        return 0.0 < max(widths, default=0.0) < DROWNED * self._input_noise
 
     def _proposed(self, hypothesis: Hypothesis, name: str) -> list[dict[str, float]] | None:
         """What the effect itself proposes, from the residuals; None where they show nothing of it."""
