@@ -155,6 +155,7 @@ def test_the_page_has_every_section_and_needs_nothing_else(folder, page):
     for section in ("answer", "run", "published", "claims", "optimizers", "iterations", "searches", "signals",
                     "held-out", "determined", "audit", "decisions", "definitions"):  # fmt: skip
         assert section in links.ids
+    assert "is left out" not in page
     assert not [source for source in links.sources if re.match(r"(?i)(https?:)?//|data:", source)]
     assert "<script src" not in page
     assert "url(http" not in page

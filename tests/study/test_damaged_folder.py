@@ -85,14 +85,15 @@ def test_a_kept_folder_without_its_store_is_reported_beside_its_page(folder):
     assert "The course of the searches is not kept here" in page.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("file", [RESPONSES, IDENTIFIABILITY, PROVENANCE])
-def test_a_page_is_written_without_what_is_damaged(folder, file):
-    HOW["junk"](folder / file)
-    assert f"{file} is damaged" in write_report(folder).read_text(encoding="utf-8")
+def test_a_page_is_written_without_what_is_damaged(folder):
+    files = (RESPONSES, IDENTIFIABILITY, PROVENANCE)
+    for file in files:
+        HOW["junk"](folder / file)
+    page = write_report(folder).read_text(encoding="utf-8")
+    assert [file for file in files if f"{file} is damaged" not in page] == []
 
 
 def test_a_section_is_left_out_and_said_where_an_object_holds_what_nobody_wrote(folder):
-    assert "is left out" not in write_report(folder).read_text(encoding="utf-8")
     whole = json.loads((folder / IDENTIFIABILITY).read_text(encoding="utf-8"))
     whole[next(iter(whole))]["names"] = 3
     (folder / IDENTIFIABILITY).write_text(json.dumps(whole), encoding="utf-8")
