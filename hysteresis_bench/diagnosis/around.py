@@ -142,9 +142,12 @@ def searched(dataset: Dataset, question: Question) -> Around:
 
 
 def explains_more(smooth: Hypothesis, found: Hypothesis) -> bool:
-    """Does a smoother input leave less? Instead of effects it may leave a little more: one that takes the input's noise
-    off as well also takes off what a spline leaves of it, or takes for noise."""
-    return smooth.rmse < (REACHED if claims(smooth) < claims(found) else 1.0) * found.rmse
+    """Does a smoother input leave less? Instead of effects, or of as many others, it may leave a little more: one that
+    takes the input's noise off as well also takes off what a spline leaves of it, or takes for noise."""
+    if claims(smooth) < claims(found):
+        return smooth.rmse < REACHED * found.rmse
+    others = claims(smooth) == claims(found) and smooth.names != found.names
+    return smooth.rmse < (ALIKE if others else 1.0) * found.rmse
 
 
 def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()) -> Diagnosis:

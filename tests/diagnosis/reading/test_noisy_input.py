@@ -68,7 +68,8 @@ def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(mon
 
 
 @pytest.mark.parametrize(
-    ("names", "left", "taken"), [("", 1.05, True), ("", 1.07, False), ("a", 0.99, True), ("a", 1.01, False)]
+    ("names", "left", "taken"),
+    [("", 1.05, True), ("", 1.07, False), ("a", 1.01, True), ("a", 1.03, False), ("b", 0.99, True), ("b", 1.01, False)],
 )
-def test_a_smooth_input_may_leave_a_little_more_in_the_place_of_an_effect(names, left, taken):
+def test_a_smooth_input_may_leave_a_little_more_in_the_place_of_an_effect_and_less_of_another_one(names, left, taken):
     assert import_module("hysteresis_bench.diagnosis.around").explains_more(fit(names, left), fit("b", 1.0)) == taken
