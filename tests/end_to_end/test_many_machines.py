@@ -30,6 +30,7 @@ def alone(tmp_path_factory):
     return study, study.parent / "whole"
 
 
+@pytest.mark.long
 def test_shards_put_together_are_the_study(alone, tmp_path):
     study, whole = alone
     parts = [tmp_path / f"part{number}" for number in (1, 2)]

@@ -88,6 +88,7 @@ def test_it_keeps_its_contract(fresh, tmp_path):
     assert "Every promise is kept." in told(fresh / "hysteresis-bench", "check-plugin", "bipop-cmaes", cwd=tmp_path)
 
 
+@pytest.mark.long
 def test_its_own_tests_pass(fresh, tmp_path):
     own = "test_hysteresis_bench_cmaes.py"
     (tmp_path / own).write_bytes((ROOT / "plugins" / "hysteresis-bench-cmaes" / own).read_bytes())

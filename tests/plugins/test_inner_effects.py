@@ -164,6 +164,7 @@ def test_a_fit_recovers_it_and_its_file_is_the_same_model(lagging, tmp_path):
         assert np.array_equal(one.output, two.output)
 
 
+@pytest.mark.long
 def test_the_command_line_fits_predicts_and_lists_it(lagging, tmp_path):
     done = run_command(
         "fit", lagging, "--model", "bouc-wen", "--effect", EDDY, "--budget", 800, "--out", tmp_path / "fit"

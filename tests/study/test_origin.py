@@ -4,6 +4,8 @@ import json
 import sqlite3
 from dataclasses import replace
 
+import pytest
+
 from hysteresis_bench import registry
 from hysteresis_bench.report.study import write_report
 from hysteresis_bench.study.origin import made_with, mixed, origin
@@ -32,6 +34,7 @@ def test_what_differs_between_trials_is_told_and_nothing_else():
     assert made_with({("p", "pso", 0): one}) == {}
 
 
+@pytest.mark.long
 def test_the_report_tells_trial_by_trial_what_differs(tmp_path):
     folder = write_results(tmp_path / "results", trials=2)
     with sqlite3.connect(folder / FILE) as store:

@@ -13,11 +13,13 @@ from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.signals import joined
 from hysteresis_plugins.effects import input_lag, output_lag
 
+pytestmark = pytest.mark.long
+
 HIDDEN = {"output-lag": output_lag, "input-lag": input_lag}
 LAGS = ("input-lag", "output-lag", "transport-delay", "asymmetry")
 
 
-@pytest.fixture(scope="module", params=["output-lag", pytest.param("input-lag", marks=pytest.mark.long)])
+@pytest.fixture(scope="module", params=HIDDEN)
 def asked(request):
     """What hides it, the selection among lags, and what it ends with."""
     rig = HiddenEffects(effects=(request.param,), draw=1, other=True)
