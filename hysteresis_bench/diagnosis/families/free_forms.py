@@ -111,7 +111,7 @@ def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesi
     clear = [one for one in found if fits(selection, one) and _clearly(selection, without, one)]
     if not clear:
         return current
-    return _thinned(selection, selection.workers.map([("extended", selection.simplest(clear), offset)])[0])
+    return _alone(selection, selection.workers.map([("extended", selection.simplest(clear), offset)])[0])
 
 
 def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
@@ -135,7 +135,13 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
     clear = [one for one in fitting if advantage(one.left_out, least.left_out, selection.fitter.blocks) > CLEAR]
     if not clear:
         return current
-    return _thinned(selection, selection.workers.map([("refitted", selection.simplest(clear))])[0])
+    return _alone(selection, selection.workers.map([("refitted", selection.simplest(clear))])[0])
+
+
+def _alone(selection: Selection, taken: Hypothesis) -> Hypothesis:
+    """A free form that has taken a name's place, without the names beside it that it does not need near the noise."""
+    fewer = _thinned(selection, taken)
+    return fewer if fits(selection, fewer) else taken
 
 
 def _joined(selection: Selection, start: Hypothesis, names: tuple[str, ...], most: int) -> Hypothesis:

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from hysteresis_bench.diagnosis.families.free_forms import _in_place_of_two
+from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from tests.diagnosis.search.handmade import FLOOR, fit, leaving, selection_of
 
 
@@ -29,10 +30,13 @@ def test_the_form_itself_beside_one_of_them_does_not():
     assert _in_place_of_two(selection, current) is form
 
 
-def test_what_was_named_beside_both_leaves_where_the_form_does_without():
-    current, form, beside = fit("abd", 1.05 * FLOOR), fit("cd", 1.0 * FLOOR), fit("c", 1.0 * FLOOR)
+@pytest.mark.parametrize(("left", "leaves"), [(1.0, True), (1.3, False)])
+def test_what_was_named_beside_both_leaves_where_the_form_comes_near_the_noise_without(left, leaves):
+    """Where the data cannot show that d is needed, and next to nothing follows them without, it stays."""
+    current, form, beside = fit("abd", 1.05 * FLOOR), fit("cd", 1.0 * FLOOR), fit("c", left * FLOOR)
     far = [fit(names, leaving(1.0)) for names in ("a", "b", "d", "ab", "ad", "bd", "ac", "bc")]
     selection = selection_of(current, form, beside, *far, candidates="abd")
     selection.forms = ("c",)
     selection.fitter.stack.effect = lambda name: SimpleNamespace(estimates=False, family="b" if name == "d" else "a")
-    assert _in_place_of_two(selection, current) is beside
+    selection.fitter.test = lambda smaller, larger: NestedTest(1.0, 0.5 if smaller is beside else 1e-12, 1)
+    assert _in_place_of_two(selection, current) is (beside if leaves else form)
