@@ -13,8 +13,11 @@ from hysteresis_bench.arrays import Array
 LEAST, MOST = 5.0, 128.0
 """Cycles over the range that are looked for: fewer are a smooth curve's."""
 
-SAMPLES = 4.0
-"""A cycle, at least, at the median speed."""
+SAMPLES = 2.5
+"""Values of the course a cycle, at least, taken in whatever order; two are the least that tell a frequency."""
+
+RESOLVED = 0.95
+"""Share of the range in which neighbouring values have to lie that close to each other."""
 
 STEP = 0.25
 """Cycles from one frequency that is looked at to the next: half of the distance at which two are independent."""
@@ -78,10 +81,16 @@ def span(courses: Sequence[Array]) -> float:
 
 
 def resolved(courses: Sequence[Array]) -> float:
-    """Cycles over the range that the samples resolve, `MOST` at the most; 0 where nothing moves."""
-    steps = np.abs(np.concatenate([np.diff(course) for course in courses]))
-    moving = steps[steps > 0.0]
-    return min(MOST, span(courses) / (SAMPLES * float(np.median(moving)))) if moving.size else 0.0
+    """Cycles over the range that the samples resolve, `MOST` at the most; 0 where nothing moves.
+
+    A cycle that is passed between two samples is seen all the same where other passes take other values within it.
+    """
+    gaps = np.sort(np.diff(np.unique(np.concatenate(list(courses)))))
+    if not gaps.size:
+        return 0.0
+    within = np.cumsum(gaps)
+    widest = float(gaps[np.searchsorted(within, RESOLVED * within[-1])])
+    return min(MOST, span(courses) / (SAMPLES * widest))
 
 
 def _without_smooth(left: Array, x: Array, sizes: Sequence[int]) -> Array:

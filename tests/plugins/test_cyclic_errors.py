@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import registry
+from hysteresis_bench.kernels import periodicity
 from tests.plugins.around import DRIVE, TIME, against, applied, record
 
 
@@ -62,3 +63,32 @@ def test_no_ripple_is_seen_in_noise_nor_in_a_smooth_fault():
 
 def test_too_few_samples_resolve_no_ripple():
     assert "too far apart" in against("cogging", record(TIME[::40], DRIVE[::40]))
+
+
+def test_samples_too_far_apart_in_time_show_a_ripple_where_many_passes_take_other_values():
+    """Nine samples a cycle of the drive follow no ripple in time; all passes together do."""
+    time = np.arange(400) * 0.11
+    drive = 3.0 * np.sin(2.0 * np.pi * time) * np.linspace(1.0, 0.7, time.size)
+    coarse = record(time, drive)
+    left = 0.1 * np.sin(2.0 * np.pi * drive / 0.45) + 0.02 * np.random.default_rng(5).standard_normal(drive.size)
+    best = registry.build("effects", "cogging").starts([coarse], [left])[0]
+    assert best["period"] == pytest.approx(0.45, rel=0.02)
+    assert best["sine"] == pytest.approx(0.1, rel=0.2)
+    same = record(time[:9], drive[:9])  # one cycle of it alone resolves none
+    assert "too far apart" in registry.build("effects", "cogging").inapplicable([same])
+
+
+@pytest.mark.parametrize(
+    ("course", "cycles"),
+    [
+        (np.linspace(0.0, 1.0, 101), 40.0),  # evenly: 2.5 values a cycle
+        (np.tile(np.linspace(0.0, 1.0, 101), 5), 40.0),  # the same values again tell no more
+        (np.array([0.0, 0.0, 1.0, 1.0]), 0.4),
+        (np.concatenate([np.linspace(0.0, 0.9, 901), [1.0]]), 4.0),  # a tenth of the range without a value
+        (np.zeros(5), 0.0),
+        (np.linspace(0.0, 1.0, 10_001), periodicity.MOST),
+    ],
+)
+def test_cycles_are_resolved_by_the_values_that_a_course_takes(course, cycles):
+    assert periodicity.resolved([course]) == pytest.approx(cycles)
+    assert periodicity.resolved([course[::-1]]) == pytest.approx(cycles)

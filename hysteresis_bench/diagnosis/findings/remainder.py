@@ -9,12 +9,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, equally_loud, f_tail, overlooked
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.noise import clipped_rms
-from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
+from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
+from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
 from hysteresis_bench.diagnosis.search.selection import MISFIT
@@ -53,7 +55,8 @@ class Remainder:
     heavy : nothing is left but noise of heavy tails: not correlated, without a cause or a term either, and most samples
         are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
-    shape : a sentence, where it repeats itself along the input or the output, or comes in bursts
+    shape : a sentence, where it repeats itself along the input or the output, comes in bursts, or is far above the
+        noise of the record that it is left of
     """
 
     equation: Equation | None
@@ -86,18 +89,41 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     ]
     residuals, simulated = left_by(stage, views)
     louder = _louder(stage, residuals, floor, parameters)
+    missed = _missed_by_its_own_noise(stage, views, residuals, floor)
     if stage.fitted.rmse <= floor or not (loud or telling):
-        return Remainder(None, False, False, False, louder)
+        return Remainder(None, bool(missed), False, False, louder, missed)
     equation = find_terms([view.record for view in views], residuals, simulated)
     caused = [test for test in telling if test.name not in OF_THE_NOISE]
     white = not any(test.name == "whiteness" for test in tests)
-    noise = not (caused or equation.terms or louder)
+    noise = not (caused or equation.terms or louder or missed)
     bursts = noise and not white and equally_loud(_averaged(residuals, floor)) < LEVEL
     slow = noise and not white and not bursts and _hidden(residuals, len(tests)) <= WRONG * floor
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
     ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
-    shape = f"{ripple.words.capitalize().partition(', p =')[0]}." if ripple else BURSTS if bursts else ""
+    shape = f"{ripple.words.capitalize().partition(', p =')[0]}." if ripple else BURSTS if bursts else missed
     return Remainder(equation, not (slow or heavy), slow, heavy, louder, shape)
+
+
+def _missed_by_its_own_noise(stage: Stage, views: Sequence[View], residuals: Sequence[Array], floor: float) -> str:
+    """A sentence of the record that is missed by most of its own noise, where that is more than `WRONG` times it, and
+    than all records are by theirs; else "". A few samples that are far off do not count.
+
+    What changes faster than the samples of one record follow passes for noise there, and hides in that of all records
+    what is left of a record whose samples do follow."""
+    loud = {test.record for test in stage.tests if test.name == "noise-floor" and test.significant}
+    beyond = [
+        (clipped_rms(part)[0] / floor_of([view], view.noise), view)
+        for view, part in zip(views, residuals, strict=True)
+        if view.record.name in loud
+    ]
+    most, view = max(beyond, key=lambda one: one[0], default=(0.0, views[0]))
+    if most <= WRONG * max(1.0, stage.fitted.rmse / floor):
+        return ""
+    own = floor_of([view], view.noise)
+    return (
+        f"{view.record.name} is missed by {rounded(most)} times its own noise, {own:.3g} where that of all records is "
+        f"{floor:.3g}: what changes faster than the samples of another record follow passes for noise there."
+    )
 
 
 def _averaged(residuals: Sequence[Array], floor: float) -> list[Array]:

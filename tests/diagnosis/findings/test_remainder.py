@@ -6,7 +6,14 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.diagnosis.evidence.autocorrelated import equally_loud
-from hysteresis_bench.diagnosis.findings.remainder import Remainder, _averaged, _hidden, _louder, other_zero
+from hysteresis_bench.diagnosis.findings.remainder import (
+    Remainder,
+    _averaged,
+    _hidden,
+    _louder,
+    _missed_by_its_own_noise,
+    other_zero,
+)
 
 RECORDS, SAMPLES, PARAMETERS = 4, 800, 4
 
@@ -119,3 +126,50 @@ def test_without_held_out_records_no_zero_is_missed():
 def test_what_was_predicted_is_no_noise(slow, heavy, matters):
     left = Remainder(None, matters=False, slow=slow, heavy=heavy, louder=False).of_a_cause()
     assert (left.matters, left.noise) == (matters, False)
+
+
+def of_own_noise(left, noises, significant=True):
+    """What is said where records of these noises leave so much;  left, noises : RMS, a record each."""
+    names = "slow", "fast", "third"
+    rng = np.random.default_rng(7)
+    views = [
+        Of(record=Of(name=name, input=np.linspace(0.0, 1.0, SAMPLES), measured=np.ones(1), steps=1), y=np.ones(1))
+        for name in names
+    ]
+    for view, noise in zip(views, noises, strict=True):
+        view.noise = Of(floor=noise)
+    parts = [rms * rng.standard_normal(SAMPLES) for rms in left]
+    tests = [Of(record=name, name="noise-floor", significant=significant) for name in names]
+    pooled = float(np.sqrt(np.mean(np.square(noises))))
+    whole = Of(tests=tests, fitted=Of(rmse=float(np.sqrt(np.mean(np.square(left))))))
+    return _missed_by_its_own_noise(whole, views, parts, pooled)
+
+
+def test_a_quiet_record_is_not_excused_by_the_noise_of_a_loud_one():
+    said = of_own_noise([0.2, 0.2, 0.2], [0.03, 0.3, 0.3])
+    assert said.startswith("slow is missed by 6.")
+    assert not of_own_noise([0.2, 0.2, 0.2], [0.03, 0.3, 0.3], significant=False)
+
+
+@pytest.mark.parametrize(
+    ("left", "noises"),
+    [
+        ([0.03, 0.3, 0.3], [0.03, 0.3, 0.3]),  # each as loud as its own noise
+        ([0.05, 0.3, 0.3], [0.03, 0.3, 0.3]),
+        ([0.4, 0.4, 0.4], [0.1, 0.1, 0.1]),  # slow noise: all are beyond that from sample to sample
+        ([0.5, 0.4, 0.3], [0.1, 0.1, 0.1]),
+    ],
+)
+def test_a_record_is_not_singled_out_where_all_are_alike(left, noises):
+    assert not of_own_noise(left, noises)
+
+
+def test_a_few_samples_that_are_far_off_are_no_fault_of_a_record():
+    rng = np.random.default_rng(3)
+    record = Of(name="slow", input=np.linspace(0.0, 1.0, SAMPLES), measured=np.ones(1), steps=1)
+    part = rng.standard_normal(SAMPLES)
+    part[::100] += 40.0
+    whole = Of(tests=[Of(record="slow", name="noise-floor", significant=True)], fitted=Of(rmse=1.0))
+    view = Of(record=record, y=np.ones(1), noise=Of(floor=1.0))
+    assert not _missed_by_its_own_noise(whole, [view], [part], 1.0)
+    assert _missed_by_its_own_noise(whole, [view], [3.0 * part], 1.0)
