@@ -33,7 +33,7 @@ def section(
         drives += _drives(folder, i, problem.name, rows, units, drawn)
         for j, ((record, role), part) in enumerate(rows.groupby(["record", "role"], sort=False), 1):
             where, parts = f"{problem.name}, {record} ({role})", {}
-            for k, label in enumerate(shown(problem, papers, rows["optimizer"]), 1):
+            for k, label in enumerate(shown(problem, papers, rows["optimizer"].unique()), 1):
                 parts[label] = (part[part["optimizer"] == label], looks[label].colour if label in looks else INK)
                 if role == "fitted" or label == problem.winner:
                     one, caption = {label: parts[label]}, f"{where}: best trial of {label}."
@@ -56,7 +56,8 @@ def section(
 def shown(problem: Problem, papers: Sequence[str], present: Iterable[str]) -> list[str]:
     """The paper's optimizers, the reference and the best of a problem, where they are present."""
     wanted = (*papers, problem.reference, problem.winner)
-    return [label for label in dict.fromkeys(wanted) if label in set(present) and label in problem.labels]
+    here = {*problem.labels}.intersection(present)
+    return [label for label in dict.fromkeys(wanted) if label in here]
 
 
 def _drives(
