@@ -20,26 +20,33 @@ VALUES = np.array([[0.6], [0.35], [0.15], [1.3]])
 TEMPTING = ("asymmetry", "backlash", "bias", "creep", "drift", "eddy-current", "leakage", "output-lag", "resonance")
 """Effects that are there, or that the fault is like: all others together take twice as long again."""
 
-
-def found_in(imperfect, effects=(), law="bouc-wen", seed=3):
-    settings = {"model": law, "imperfect": imperfect, "effects": effects, "noise": 0.004}
-    data = measure("hidden-effects", *RECORDS, settings=settings, seed=seed).split(RECORDS[-1:])
-    among = (*TEMPTING, *effects) if effects else None  # where nothing is hidden, all there are are asked about
-    return diagnose(data, Question("bouc-wen", among=among, options=DiagnosisOptions(jobs=1))), data
+NOTHING_HIDDEN = [((), TEMPTING), pytest.param((), None, marks=pytest.mark.long)]
+"""Of those that tempt, and of all there are."""
 
 
-@pytest.mark.parametrize("effects", [(), pytest.param(("creep",), marks=pytest.mark.long)])
-def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects):
-    found, _ = found_in("coloured", effects)
+def found_in(imperfect, effects=(), among=TEMPTING):
+    settings = {"model": "bouc-wen", "imperfect": imperfect, "effects": effects, "noise": 0.004}
+    data = measure("hidden-effects", *RECORDS, settings=settings, seed=3).split(RECORDS[-1:])
+    asked = among and (*among, *effects)
+    return diagnose(data, Question("bouc-wen", among=asked, options=DiagnosisOptions(jobs=1))), data
+
+
+@pytest.mark.parametrize(
+    ("effects", "among"), [*NOTHING_HIDDEN, pytest.param(("creep",), TEMPTING, marks=pytest.mark.long)]
+)
+def test_slow_noise_is_told_as_noise_and_not_as_a_wrong_law(effects, among):
+    found, _ = found_in("coloured", effects, among)
     assert found.effects == effects
     assert found.verdict == ("effect-found" if effects else "no-effect-needed")
     assert any("depends on nothing that was measured here" in one for one in found.warnings)
     assert not any("law does not follow" in one for one in found.warnings)
 
 
-@pytest.mark.parametrize("effects", [(), pytest.param(("creep",), marks=pytest.mark.long)])
-def test_noise_of_heavy_tails_is_told_as_noise(effects):
-    found, _ = found_in("heavy-tailed", effects)
+@pytest.mark.parametrize(
+    ("effects", "among"), [*NOTHING_HIDDEN, pytest.param(("creep",), TEMPTING, marks=pytest.mark.long)]
+)
+def test_noise_of_heavy_tails_is_told_as_noise(effects, among):
+    found, _ = found_in("heavy-tailed", effects, among)
     assert found.effects == effects
     assert found.verdict == ("effect-found" if effects else "no-effect-needed")
     assert any("noise of heavy tails" in one for one in found.warnings)

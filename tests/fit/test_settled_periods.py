@@ -117,7 +117,8 @@ def test_fit_and_compare_say_so(moved):
     assert said in compare(moved, ASKED.laws, options=ASKED).words
 
 
-@pytest.mark.parametrize("model", ["dahl", pytest.param(None, marks=pytest.mark.long)])
+@pytest.mark.long
+@pytest.mark.parametrize("model", ["dahl", None])
 def test_diagnose_says_so_once(moved, model):
     (said,) = unsettled(moved.records, asked=True)
     assert " ".join(diagnose(moved, model, options=ASKED).warnings).count(said) == 1

@@ -18,7 +18,7 @@ ONE = DiagnosisOptions(jobs=1)
 def found_around(law, effects, names_only):
     """In records of Bouc and Wen's law with these effects."""
     settings = {"model": "bouc-wen", "effects": effects, "noise": 0.004}
-    likely = ("asymmetry", "backlash", "bias", "creep", "drift", "output-lag", "saturation")
+    likely = ("backlash", "creep", "drift", "output-lag")
     question = Question(law, among=likely, options=ONE)
     prepared = prepare(measure("hidden-effects", *RECORDS, settings=settings, seed=3), question)
     with names_only():

@@ -87,7 +87,9 @@ def fits(tmp_path_factory):
 def asked(accept_terms: bool, fits: Journal) -> Question:
     """The step turns the loop's sense, and a clockwise Bouc-Wen can bend to it: its hysteresis stays anticlockwise."""
     options = DiagnosisOptions(jobs=1, accept_terms=accept_terms, kept=fits)
-    return Question("bouc-wen", bounds={"alpha": (0.0, 2.0)}, options=options)
+    return Question(
+        "bouc-wen", among=("backlash", "creep", "output-lag"), bounds={"alpha": (0.0, 2.0)}, options=options
+    )
 
 
 @pytest.fixture(scope="module")
