@@ -16,8 +16,12 @@ LEAST, MOST = 5.0, 128.0
 SAMPLES = 2.5
 """Values of the course a cycle, at least, taken in whatever order; two are the least that tell a frequency."""
 
-RESOLVED = 0.95
-"""Share of the range in which neighbouring values have to lie that close to each other."""
+RESOLVED = 0.9
+"""Share of the range in which neighbouring values have to lie that close to each other.
+
+Of 300 ripples of 6 to 40 cycles in white noise, on drives of 4 to 40 samples a cycle, the test of ripples finds 284 at
+their period and 1 at another, and 2 in 300 residuals without one (level 0.01). With half of `SAMPLES` 295, 1 and 2,
+with twice 241, 4 and 2; with half of the share that may be left 271, 5 and 2, with twice 291, 0 and 1."""
 
 STEP = 0.25
 """Cycles from one frequency that is looked at to the next: half of the distance at which two are independent."""
