@@ -6,7 +6,8 @@ that do best there are fitted to all, and effects that they do not need are take
 better, and leaves less than half of the excess over the noise, is told as the cause; so is one that needs no curve and
 predicts as well as a system with one, unless it has more parameters, and the curve is all of the shape that was
 adopted, if it is any: a richer law follows one curve as well, and shows nothing. Nor does one where the law that was
-asked about needs no curve either to predict as well. Two formulas without dynamics may make another law of the asked
+asked about needs no curve either to predict as well. At the noise no law predicts clearly better, so that those of more
+parameters are not asked there. Two formulas without dynamics may make another law of the asked
 one: a law that predicts as well without any, with no more parameters, is told as the cause. What was adopted and is not
 needed around that law is a stand-in: it stays in the model, where it helps to predict, and is not named.
 """
@@ -74,22 +75,28 @@ def law_as_cause(
     screened : the laws that may stand in its place, fitted to the `few` samples
     """
     fitter, floor = found.thin, found.selection.floor
-    curves, shapes = forms_of(own.effects), sum(map(is_shape, own.effects))
-    imitated = made_of_shapes(own, floor)
+    imitated, most = made_of_shapes(own, floor), most_parameters(found, own)
     own_few = replace(fitter, stack=replace(fitter.stack, records=few))
     left = own_few.errors(found.final.names, fitter.fitted(found.final)[1])
-    reach = float(np.sqrt(np.mean(left**2))) * (REACHED if curves or imitated else 1.0)
+    reach = float(np.sqrt(np.mean(left**2))) * (REACHED if forms_of(own.effects) or imitated else 1.0)
     promising = [one.model for one in sorted(screened, key=lambda one: one.rmse)[:PURSUED] if one.rmse < reach]
     predicting = workers.map([("predicting", name) for name in promising])
     best = min(predicting, key=lambda one: one.rmse, default=NOBODY)
     if not clearly_better(best, own, floor, fitter.blocks):
         reached = REACHED * max(own.rmse, floor)
-        most = _in_use(fitter, found.final) if shapes < SHAPES or imitated else np.inf
-        needed = imitated or (curves and not _without_curves(found, reached))
-        as_well = [one for one in predicting if needed and one.parameters <= most and one.rmse <= reached]
+        as_well = [one for one in predicting if one.parameters <= most and one.rmse <= reached]
         as_well = [one for one in as_well if not (imitated and any(map(is_shape, one.effects)))]
         best = min(as_well, key=lambda one: one.rmse, default=NOBODY)
     return None if best is NOBODY else Cause(best.model, best.effects, best.rmse, own.rmse)
+
+
+def most_parameters(found: Found, own: Contender) -> float:
+    """So many has a law that is told as the cause as it predicts as well, at most; with 0 none is."""
+    curves, imitated = forms_of(own.effects), made_of_shapes(own, found.selection.floor)
+    reached = REACHED * max(own.rmse, found.selection.floor)
+    if not (imitated or (curves and not _without_curves(found, reached))):
+        return 0
+    return _in_use(found.thin, found.final) if imitated or sum(map(is_shape, own.effects)) < SHAPES else np.inf
 
 
 def made_of_shapes(one: Contender, floor: float) -> bool:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
 from hysteresis_bench.diagnosis.doubt.carrying import carrying
-from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause, made_of_shapes
+from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause, made_of_shapes, most_parameters
 from hysteresis_bench.diagnosis.doubt.other_laws import OFFSET, Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
@@ -96,13 +96,16 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     effects = tuple(name for name in in_question(found) if not (imitated and is_shape(name)))
     around = OtherLaws(asked, stack, few, effects, floor, options.seed, _values(found))
     jobs = options.jobs or min(4, os.cpu_count() or 1)
+    level = _level(found)
+    own = final if level is found else replace(final, errors=found.thin.unseen(level.final))
+    untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
+    wrong = found.final.rmse > WRONG * floor or final.rmse > MISFIT * floor
+    others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
+    if not wrong and own.rmse <= REACHED * floor:  # at the noise none does clearly better
+        most = most_parameters(level, own)
+        others = [name for name in others if len(registry.build("models", name, {}).parameters) <= most]
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
-        untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
-        wrong = found.final.rmse > WRONG * floor or final.rmse > MISFIT * floor
-        others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
         screened = workers.map([("screened", name) for name in others])
-        level = _level(found)
-        own = final if level is found else replace(final, errors=found.thin.unseen(level.final))
         cause = law_as_cause(level, own, [one for one in screened if one.model in laws], few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):
             return replace(known, cause=cause, untested=untested)
