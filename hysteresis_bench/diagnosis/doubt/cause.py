@@ -7,9 +7,9 @@ better, and leaves less than half of the excess over the noise, is told as the c
 predicts as well as a system with one, unless it has more parameters, and the curve is all of the shape that was
 adopted, if it is any: a richer law follows one curve as well, and shows nothing. Nor does one where the law that was
 asked about needs no curve either to predict as well. At the noise no law predicts clearly better, so that those of more
-parameters are not asked there. Two formulas without dynamics may make another law of the asked
-one: a law that predicts as well without any, with no more parameters, is told as the cause. What was adopted and is not
-needed around that law is a stand-in: it stays in the model, where it helps to predict, and is not named.
+parameters are not asked there. Two formulas without dynamics may make another law of the asked one: a law that predicts
+as well without any, with no more parameters, is told as the cause. What was adopted and is not needed around that law
+is a stand-in: it stays in the model, where it helps to predict, and is not named.
 """
 
 from __future__ import annotations
