@@ -117,7 +117,7 @@ def clearly_better(one: Contender, other: Contender, floor: float, blocks: Block
 def _without_curves(found: Found, reached: float) -> bool:
     """Does the law that was asked about with formulas alone, of those that were tried, predict as well?"""
     known = found.selection.known.values()
-    plain = [one for one in known if one.rmse <= reached and not forms_of(found.selection.adopted(one))]
+    plain = [one for one in known if one.rmse <= reached and not forms_of(tuple(one.names))]
     return bool(plain) and unseen_rmse(found.thin, min(plain, key=lambda one: one.cv_rmse)) <= reached
 
 

@@ -15,6 +15,7 @@ from tests.diagnosis.search.handmade import FLOOR, fit, selection_of
         (("droop", "output-lag"), 1.3, 1.03, False),  # it does not follow what was fitted
         (("droop", "output-lag"), 1.02, 1.3, False),  # nor does it predict
         (("droop", "lags-after"), 1.02, 1.03, False),  # with a curve as well
+        (("droop", "lags-before"), 1.02, 1.03, False),  # with one that is no candidate any more
     ],
 )
 def test_formulas_alone_that_predict_as_well_need_no_curve(names, left, unseen, needs_none):
