@@ -35,7 +35,7 @@ def _by_record(results: Results, here: Sequence[Problem], published: Published) 
     found = []
     for problem in here:
         rows = results.responses[results.responses["problem"] == problem.name]
-        labels = shown(problem, published.optimizers, rows["optimizer"].unique())
+        labels = shown(problem, published.optimizers, rows["optimizer"])
         found.append(by_record(problem.name, rows, labels, published=published))
     return [table for table in found if table]
 

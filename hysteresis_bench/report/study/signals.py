@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -30,10 +30,11 @@ def section(
     for i, problem in enumerate(here, 1):
         rows = results.responses[results.responses["problem"] == problem.name]
         units = results.provenance.get("units", {}).get(problem.name, {})
+        labels = shown(problem, papers, rows["optimizer"])
         drives += _drives(folder, i, problem.name, rows, units, drawn)
         for j, ((record, role), part) in enumerate(rows.groupby(["record", "role"], sort=False), 1):
             where, parts = f"{problem.name}, {record} ({role})", {}
-            for k, label in enumerate(shown(problem, papers, rows["optimizer"].unique()), 1):
+            for k, label in enumerate(labels, 1):
                 parts[label] = (part[part["optimizer"] == label], looks[label].colour if label in looks else INK)
                 if role == "fitted" or label == problem.winner:
                     one, caption = {label: parts[label]}, f"{where}: best trial of {label}."
@@ -53,10 +54,10 @@ def section(
     return Section("signals", "Drive and response, loops, errors", blocks)
 
 
-def shown(problem: Problem, papers: Sequence[str], present: Iterable[str]) -> list[str]:
-    """The paper's optimizers, the reference and the best of a problem, where they are present."""
+def shown(problem: Problem, papers: Sequence[str], present: pd.Series) -> list[str]:
+    """The paper's optimizers, the reference and the best of a problem, where they are present in any row."""
     wanted = (*papers, problem.reference, problem.winner)
-    here = {*problem.labels}.intersection(present)
+    here = {*problem.labels}.intersection(present.unique())
     return [label for label in dict.fromkeys(wanted) if label in here]
 
 
