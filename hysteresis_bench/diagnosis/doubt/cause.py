@@ -67,15 +67,21 @@ class Cause:
 
 
 def law_as_cause(
-    found: Found, own: Contender, screened: Sequence[Contender], few: tuple[Record, ...], workers: Workers[Contender]
+    found: Found,
+    own: Contender,
+    screened: Sequence[Contender],
+    most: float,
+    few: tuple[Record, ...],
+    workers: Workers[Contender],
 ) -> Cause | None:
     """None where no other law does clearly better.
 
     own : the law that was asked about with all that was adopted, and its errors on records left out of the fit
     screened : the laws that may stand in its place, fitted to the `few` samples
+    most : as of `most_parameters`
     """
     fitter, floor = found.thin, found.selection.floor
-    imitated, most = made_of_shapes(own, floor), most_parameters(found, own)
+    imitated = made_of_shapes(own, floor)
     own_few = replace(fitter, stack=replace(fitter.stack, records=few))
     left = own_few.errors(found.final.names, fitter.fitted(found.final)[1])
     reach = float(np.sqrt(np.mean(left**2))) * (REACHED if forms_of(own.effects) or imitated else 1.0)

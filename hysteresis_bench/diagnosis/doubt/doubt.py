@@ -101,12 +101,12 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
     wrong = found.final.rmse > WRONG * floor or final.rmse > MISFIT * floor
     others = [name for name in dict.fromkeys([*laws, *(witnesses if wrong else ())]) if name != asked]
+    most = most_parameters(level, own)
     if not wrong and own.rmse <= REACHED * floor:  # at the noise none does clearly better
-        most = most_parameters(level, own)
         others = [name for name in others if len(registry.build("models", name, {}).parameters) <= most]
     with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
         screened = workers.map([("screened", name) for name in others])
-        cause = law_as_cause(level, own, [one for one in screened if one.model in laws], few, workers)
+        cause = law_as_cause(level, own, [one for one in screened if one.model in laws], most, few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):
             return replace(known, cause=cause, untested=untested)
         (own,) = workers.map([("needy", asked)])
