@@ -32,8 +32,9 @@ a made case 0.04 does, as on a measured ferroelectric gate stack whose loops had
 half of it or twice changes neither. On the latter the free forms stood in for that, so that they are no names."""
 
 WHOLE = 0.01
-"""Of the ratio of two periods, within which it is a whole number. Of two made coggings that are no sum of two harmonics
-one was named with an error of the input of half its period: within 1e-4 of that."""
+"""Of the ratio of two periods, within which it is a whole number. In a made case whose cogging is no sum of two
+harmonics an error of the input was named beside it with half its period, within 1e-4: half and twice of this change
+nothing there."""
 
 
 def with_free_forms(selection: Selection, found: Hypothesis) -> Hypothesis:

@@ -122,7 +122,7 @@ def _missed_by_its_own_noise(stage: Stage, views: Sequence[View], residuals: Seq
     own = floor_of([view], view.noise)
     return (
         f"{view.record.name} is missed by {rounded(most)} times its own noise, {own:.3g} where that of all records is "
-        f"{floor:.3g}: what changes faster than the samples of another record follow passes for noise there."
+        f"{floor:.3g}: what changes faster than the samples of another record follow may pass for noise there."
     )
 
 
