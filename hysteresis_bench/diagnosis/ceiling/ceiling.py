@@ -25,7 +25,7 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 REMAINS = 1.1
-"""Times the floor up to which the named model leaves nothing to be found. On 83 made cases, 72 of which lacked a law or
+"""Times the floor up to which the named model comes down to the noise. On 83 made cases, 72 of which lacked a law or
 an effect, this, `SHARE` and `CLEAR` told 66 of those and one of the others; 66 too with 1.05 or 1.2."""
 SHARE = 0.1
 """Of the named model's excess over the floor (mean square), which a black box must explain to do clearly better. Half
@@ -88,7 +88,7 @@ class Ceiling:
             f"{f', and repeats differ by {self.repeats:.3g}' if self.repeats else ''}."
         )
         if self.reached:
-            return f"{said} The named model leaves nothing to be found."
+            return f"{said} The named model comes down to the noise of all records together."
         if self.better:
             return (
                 f"{said} The black box does clearly better, by {rounded(self.advantage)} standard errors: what is "
