@@ -28,8 +28,8 @@ STEEPEST = 200.0
 """An unstable stage grows by at most e^200 a step, so that nothing overflows."""
 
 # Rows of one work array; unsigned, as in `bouc_wen`.
-INPUT, DEVIATION, VELOCITY, KEPT, SINE, LOST, FALLEN, SLOWED = (np.uint64(row * LANES) for row in range(8))
-ROWS = 8
+INPUT, DEVIATION, VELOCITY, KEPT, SINE, LOST, FALLEN, SLOWED, LEAD = (np.uint64(row * LANES) for row in range(9))
+ROWS = 9
 
 
 @njit(cache=True, error_model="numpy")
@@ -89,17 +89,22 @@ def modes(step: float, u: Array, frequency: float, dampings: Array) -> Array:
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
 def _advanced(work, j, slope):  # type: ignore[no-untyped-def]
-    """The deviation of one lane a sample on."""
+    """How far one lane is off its input a sample on."""
     e, v = work[DEVIATION + j], work[VELOCITY + j]
     after = work[KEPT + j] * e + work[SINE + j] * v - work[LOST + j] * slope
     work[VELOCITY + j] = work[FALLEN + j] * e + work[SLOWED + j] * v + (1.0 - work[KEPT + j]) * slope
     work[DEVIATION + j] = after
-    return after
+    return _off(work, j)
 
 
 @njit(forceinline=True, error_model="numpy", fastmath={"contract"})
-def _side_by_side(time, u, damping, stiffness, bound, y, first):  # type: ignore[no-untyped-def]
-    """As `second_order`, for the LANES stages from `first` on, into y. bound : of a deviation, may be infinite
+def _off(work, j):  # type: ignore[no-untyped-def]
+    return work[DEVIATION + j] + work[LEAD + j] * work[VELOCITY + j]
+
+
+@njit(forceinline=True, error_model="numpy", fastmath={"contract"})
+def _side_by_side(time, u, damping, stiffness, lead, bound, y, first):  # type: ignore[no-untyped-def]
+    """As `leading_second_order`, for the LANES stages from `first` on, into y. bound : of a deviation, may be infinite
 
     Those that pad them are at rest; they read and write what follows in u and y, but for the last sample.
     """
@@ -111,6 +116,7 @@ def _side_by_side(time, u, damping, stiffness, bound, y, first):  # type: ignore
     work = np.zeros(ROWS * LANES)
     for k in range(first, first + used):
         work[INPUT + np.uint64(k - first)] = y[0, k] = u[0, 0 if shared else k]
+        work[LEAD + np.uint64(k - first)] = lead[k]
     known = 0.0
     for i in range(1, samples):
         duration = time[i] - time[i - 1]
@@ -139,7 +145,21 @@ def _side_by_side(time, u, damping, stiffness, bound, y, first):  # type: ignore
             for j in range(lanes):
                 work[DEVIATION + j] = min(max(work[DEVIATION + j], -bound), bound)
                 work[VELOCITY + j] = min(max(work[VELOCITY + j], -bound * rate), bound * rate)
-                outputs[row + j] = (u[i, 0] if shared else work[INPUT + j]) + work[DEVIATION + j]
+                outputs[row + j] = (u[i, 0] if shared else work[INPUT + j]) + _off(work, j)
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def leading_second_order(time: Array, u: Array, damping: Array, stiffness: Array, lead: Array) -> Array:
+    """As `second_order`, of stages that are passed on with a part of their velocity: k (1 + lead s) / (s² + c s + k).
+
+    lead : float64[swarm]    s
+    """
+    stable = np.all((damping >= 0.0) & (stiffness > 0.0))
+    bound = np.inf if stable else RUNAWAY * (np.max(u) - np.min(u))
+    y = np.empty((u.shape[0], stiffness.size))
+    for first in range((stiffness.size - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
+        _side_by_side(time, u, damping, stiffness, lead, bound, y, first)
+    return y
 
 
 @njit(cache=True, error_model="numpy", fastmath={"contract"})
@@ -152,9 +172,5 @@ def second_order(time: Array, u: Array, damping: Array, stiffness: Array) -> Arr
     stiffness : float64[swarm]          k = (natural angular frequency)², 1/s²; infinite: y = u to the last bit
     -> float64[samples, swarm]          y, in the unit of u; finite also for an unstable stage (RUNAWAY)
     """
-    stable = np.all((damping >= 0.0) & (stiffness > 0.0))
-    bound = np.inf if stable else RUNAWAY * (np.max(u) - np.min(u))
-    y = np.empty((u.shape[0], stiffness.size))
-    for first in range((stiffness.size - 1) // LANES * LANES, -1, -LANES):  # the last ones first, for their padding
-        _side_by_side(time, u, damping, stiffness, bound, y, first)
+    y: Array = leading_second_order(time, u, damping, stiffness, np.zeros(stiffness.size))
     return y

@@ -57,6 +57,10 @@ LAWS = {
     },
 }  # fmt: skip
 BENDS = {f"bend{k}": 0.1 * (-1) ** k for k in (0, 1, 2, 3, 5, 6, 7)}
+MODES = {
+    "period1": 0.02, "damping1": 0.2, "weight1": 0.8, "lead1": 0.3,
+    "period2": 0.008, "damping2": 0.1, "weight2": 0.3, "lead2": -0.2,
+}  # fmt: skip
 LEVELS = {
     "bottom": -2.5,
     "top": 2.0,
@@ -115,6 +119,8 @@ EFFECTS = {
     "lags-after": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "lags-before": {"shortest": 1e-3, "longest": 1.0, **WEIGHTS},
     "leakage-curve": {"largest": 3.0, **{f"current{k}": 0.5 / k for k in range(1, 8)}},
+    "modes-after": MODES,
+    "modes-before": MODES,
     "output-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
     "parallel-curve": {
         "lowest": -2.5, "highest": 2.0, **{f"bend{k}": 0.1 * (-1) ** k for k in range(10) if k != 5},

@@ -94,6 +94,22 @@ def test_an_unstable_stage_stays_finite():
     assert np.isfinite(run(np.arange(3000.0), u, *stages)).all()
 
 
+@pytest.mark.parametrize("stage", STAGES.values(), ids=STAGES)
+def test_a_lead_passes_a_part_of_the_velocity_on(stage):
+    time = np.arange(2000) * 5e-4
+    u = 1.0 + np.sin(2 * np.pi * 30 * time) * time
+    (damping, stiffness), lead = stage, 3e-3
+    system = StateSpace([[0, 1], [-stiffness, -damping]], [[0], [stiffness]], [[1, lead]], [[0]])
+    _, expected, _ = lsim(system, u, time, X0=[1.0, 0.0], interp=True)
+    leads = np.array([lead, 0.0])
+    for columns in (u[:, None], np.repeat(u[:, None], 2, axis=1)):
+        found = as_models_call(kernels.leading_second_order, 0)(
+            time, columns, *(np.full(2, value) for value in stage), leads
+        )
+        np.testing.assert_allclose(found[:, 0], expected, rtol=0, atol=1e-12)
+        np.testing.assert_allclose(found[:, 1], run(time, u[:, None], stage)[:, 0], rtol=0, atol=1e-14)
+
+
 @pytest.mark.parametrize("damping", [0.03, 0.3, 1.0, 4.0])
 @pytest.mark.parametrize("frequency", [0.3, 5.0, 40.0])
 def test_modes_are_a_first_order_hold(damping, frequency):
