@@ -111,7 +111,7 @@ EFFECTS = {
     },
     "gain-with-path": {"longest": 40.0, **{f"gain{k}": -0.05 * k for k in range(1, 7)}},
     "gain-with-time": {"duration": 1.6, **{f"gain{k}": -0.05 * k for k in range(1, 7)}},
-    "input-curve": {"lowest": -2.5, "highest": 2.0, **BENDS},
+    "input-curve": {"lowest": -2.5, "highest": 2.0, "origin": 0.1, "corner": 0.3, **BENDS},
     "lag-curve-after": {"bend": 3.0, "falling_fast": 0.05, "falling": 0.02, "rising": 0.01, "rising_fast": 0.0},
     "lag-curve-before": {"bend": 3.0, "falling_fast": 0.01, "falling": 0.02, "rising": 0.0, "rising_fast": 0.05},
     "lag-with-level-after": LEVELS,

@@ -120,6 +120,18 @@ def test_a_stop_is_sought_about_the_response_where_the_output_is_far_from_zero(p
     assert highest[0] > 1.2
 
 
+def test_a_curve_of_the_input_has_a_corner_where_the_input_changes_its_sign():
+    lows, highs = zip(*(box("input-curve", record())[end] for end in ("lowest", "highest", "origin")), strict=True)
+    lowest, highest, origin = 0.5 * (np.array(lows) + np.array(highs))
+    assert origin == 0.0
+    off = {one.name: 0.0 for one in registry.build("effects", "input-curve").parameters if one.name.startswith("bend")}
+    values = {"lowest": lowest, "highest": highest, "origin": origin, "corner": 0.25, **off}
+    y = applied("input-curve", record().signal, **values)
+    np.testing.assert_allclose(y, 2.0 * np.where(DRIVE > 0.0, 1.25, 0.75) * DRIVE, rtol=1e-12)
+    far = box("input-curve", record(drive=DRIVE + 40.0))["origin"]
+    assert 0.5 * sum(far) == pytest.approx(40.5, abs=0.01)  # no zero to be seen: in the middle
+
+
 def test_asymmetry_stays_monotone_in_its_box():
     low, high = box("asymmetry", record())["curvature"]
     rising = np.linspace(-3.5, 3.5, 200)

@@ -1,4 +1,4 @@
-"""A smooth curve of the input; constants: of its spline."""
+"""A curve of the input; constants: origin and corner, and those of its spline."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from hysteresis_plugins.exports.spline import constants_of, spline_at
 
 
 def before(s: Array, p: Array, t: float, u: float) -> float:
-    return u + spline_at(p, 0, u)
+    return u + spline_at(p, 2, u) + p[1] * abs(u - p[0])
 
 
 def part(effect: Any, p: Mapping[str, float], timed: bool) -> Part:
-    return Part(constants_of(BEND, p["lowest"], p["highest"], p))
+    return Part((p["origin"], p["corner"], *constants_of(BEND, p["lowest"], p["highest"], p)))
