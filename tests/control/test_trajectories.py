@@ -36,12 +36,16 @@ EFFECTS = {
     "droop": {"rate": 2.0, "share": 0.8},
     "input-lag": {"time_constant": 0.004},
     "lag-curve-after": {"bend": 1.0, "falling_fast": 0.01, "falling": 0.01, "rising": 0.005, "rising_fast": 0.005},
+    "modes-after": {
+        "period1": 0.02, "damping1": 0.1, "weight1": 0.8, "lead1": 0.0,
+        "period2": 0.008, "damping2": 0.1, "weight2": 0.2, "lead2": 0.1,
+    },
     "output-lag": {"time_constant": 0.005},
     "resonance": {"period": 0.01, "damping": 0.1},
     "saturation": {"inverse_level": 0.1, "sharpness": 2.0},
     "slew-rate-limit": {"slowness": 0.02, "skew": 0.0},
     "drift": {"rate": 0.1},
-}
+}  # fmt: skip
 
 
 def fitted(law, values, effects=(), unit="s"):
@@ -66,6 +70,7 @@ CASES = {
     "lag before": ("bouc-wen", BOUC_WEN, ("input-lag",), 5e-4),
     "lag behind": ("bouc-wen", BOUC_WEN, ("output-lag",), 5e-4),
     "resonance": ("bouc-wen", BOUC_WEN, ("resonance",), 3e-4),
+    "two modes": ("bouc-wen", BOUC_WEN, ("modes-after",), 3e-4),
     "linear section": ("hammerstein", {**BOUC_WEN, **LINEAR}, (), 3e-4),
     "a curve": ("bouc-wen", BOUC_WEN, ("saturation",), 1e-9),
     "all": ("prandtl-ishlinskii", PLAYS, ("creep", "resonance", "saturation", "bias", "input-lag"), 2e-2),
