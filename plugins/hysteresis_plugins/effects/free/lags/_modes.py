@@ -13,7 +13,6 @@ from hysteresis_bench.free_forms import Curve
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, read_only
 from hysteresis_plugins.effects._ranges import finest_step
-from hysteresis_plugins.effects.free._spline import POINTS
 from hysteresis_plugins.effects.resonance import fastest_period
 
 MODES = (1, 2)
@@ -26,6 +25,9 @@ LEADING = 2.0
 
 DECADE = 10.0
 """Times the highest natural frequency, and a part of the lowest, between which the gain is drawn."""
+
+POINTS = 241
+"""Of the drawn gain: a peak is about as wide as its frequency times twice its damping."""
 
 STARTS, DAMPING = 5, 0.2
 """Periods of the slower mode from which a search begins, each with a faster mode of half of it, and the damping ratio
