@@ -26,11 +26,12 @@ def drifts(stack: Stack) -> list[str]:
 
 
 def linear_dynamics(stack: Stack) -> list[str]:
-    """For either side of the law the free form, or else, as at one frequency, the formulas of what it is made of."""
+    """For either side of the law the free form that has coefficients alone, as many laws are asked; or else, as at one
+    frequency, the formulas of what it is made of."""
     found = []
     for side in SIDES:
         names = [name for name in _linear(stack) if stack.effect(name).family == side]
-        free = [name for name in names if isinstance(stack.effect(name), FreeForm)]
+        free = [name for name in names if isinstance(form := stack.effect(name), FreeForm) and _quick(form)]
         found += free or [name for name in names if stack.effect(name).relaxes]
     return found
 
@@ -46,6 +47,11 @@ def changes(stack: Stack) -> list[str]:
     """The free forms of all other families."""
     known = {*SIDES, *SHAPES}
     return [name for name in stack.free_forms() if stack.effect(name).family not in known]
+
+
+def _quick(form: FreeForm) -> bool:
+    """Has it coefficients alone, but for the range of the data? Then one start will do."""
+    return all(one.null is not None or one.name in form.ranges for one in form.parameters)
 
 
 def _linear(stack: Stack) -> Iterator[str]:
