@@ -1,7 +1,7 @@
 """Is the diagnosis right where a controller closes a loop around the device, so that its noise comes back in the input?
 
     python benchmarks/closed_loop.py [--laws bouc-wen] [--effects creep,drift] [--bandwidth 10] [--noise 0.003]
-        [--strides 1,2,1,3,2] [--seed 3] [--jobs 1]
+        [--strides 1,2,1,3,2] [--strength 1] [--seed 3] [--jobs 1]
 
 An integral controller makes the measured output of a law, with an effect beside it, follow five references, the last
 one held out; law, effect and controller are computed sample by sample, by code of their own. The input is what the
@@ -75,28 +75,29 @@ def _lag(constant: float) -> Device:
     return step
 
 
-def _input_lag(law: Device) -> Device:
-    lag = _lag(0.03)
+def _input_lag(law: Device, strength: float) -> Device:
+    lag = _lag(0.03 * strength)
     return lambda u: law(lag(u))
 
 
-def _output_lag(law: Device) -> Device:
-    lag = _lag(0.03)
+def _output_lag(law: Device, strength: float) -> Device:
+    lag = _lag(0.03 * strength)
     return lambda u: lag(law(u))
 
 
-def _creep(law: Device) -> Device:
+def _creep(law: Device, strength: float) -> Device:
     lags = [_lag(constant) for constant in (0.1, 0.4, 1.6)]
 
     def step(u: float) -> float:
         y = law(u)
-        return y + 0.06 * sum(lag(y) for lag in lags)
+        return y + 0.06 * strength * sum(lag(y) for lag in lags)
 
     return step
 
 
-def _saturation(law: Device) -> Device:
-    return lambda u: 0.35 * float(np.tanh(law(u) / 0.35))
+def _saturation(law: Device, strength: float) -> Device:
+    level = 0.35 / strength
+    return lambda u: level * float(np.tanh(law(u) / level))
 
 
 def _with_time(law: Device, of: Callable[[float], float]) -> Device:
@@ -104,17 +105,17 @@ def _with_time(law: Device, of: Callable[[float], float]) -> Device:
     return lambda u: law(u) + of(next(clock))
 
 
-def _drift(law: Device) -> Device:
-    return _with_time(law, lambda t: 0.02 * t)
+def _drift(law: Device, strength: float) -> Device:
+    return _with_time(law, lambda t: 0.02 * strength * t)
 
 
-def _hum(law: Device) -> Device:
-    return _with_time(law, lambda t: 0.01 * float(np.sin(2.0 * np.pi * 13.3 * t)))
+def _hum(law: Device, strength: float) -> Device:
+    return _with_time(law, lambda t: 0.01 * strength * float(np.sin(2.0 * np.pi * 13.3 * t)))
 
 
 LAWS: dict[str, Callable[[], Device]] = {"bouc-wen": _bouc_wen, "prandtl-ishlinskii": _prandtl_ishlinskii}
-EFFECTS: dict[str, Callable[[Device], Device]] = {
-    "none": lambda law: law,
+EFFECTS: dict[str, Callable[[Device, float], Device]] = {
+    "none": lambda law, strength: law,
     "input-lag": _input_lag,
     "output-lag": _output_lag,
     "creep": _creep,
@@ -141,7 +142,7 @@ def diagnosed(law: str, effect: str, told: argparse.Namespace) -> str:
     records = []
     for number, drive in enumerate(drives()):
         noise = told.noise * span * rng.standard_normal(TIME.size)
-        u, y = controlled(EFFECTS[effect](LAWS[law]()), REACH * span * drive, noise, told.bandwidth)
+        u, y = controlled(EFFECTS[effect](LAWS[law](), told.strength), REACH * span * drive, noise, told.bandwidth)
         kept = slice(None, None, strides[number % len(strides)])
         records.append(Record(TIME[kept], u[kept], y[kept], name=f"run {number}"))
     begun = time.monotonic()
@@ -163,6 +164,7 @@ def main() -> None:
     parser.add_argument("--bandwidth", type=float, default=10.0)
     parser.add_argument("--noise", type=float, default=0.003)
     parser.add_argument("--strides", default="1")
+    parser.add_argument("--strength", type=float, default=1.0, help="of the effect")
     parser.add_argument("--seed", type=int, default=3)
     parser.add_argument("--jobs", type=int, default=1)
     told = parser.parse_args()

@@ -1,4 +1,4 @@
-"""Two modes beside a direct path are any stable transfer function of fourth order with complex poles."""
+"""Two modes beside a direct path are transfer functions of fourth order with unit static gain, whatever their zeros."""
 
 from collections import namedtuple
 
@@ -61,12 +61,12 @@ def simulated(transfer, x):
     return x[0] + lsim((above, below), x - x[0], TIME, interp=True)[1]
 
 
-def test_they_are_any_transfer_function_after(transfer):
+def test_they_are_the_transfer_function_after(transfer):
     found = applied("modes-after", record().signal, **parted(transfer[0]))
     np.testing.assert_allclose(found, simulated(transfer, 2.0 * DRIVE), rtol=0, atol=1e-8)
 
 
-def test_they_are_any_transfer_function_before(transfer):
+def test_they_are_the_transfer_function_before(transfer):
     found = applied("modes-before", record().signal, **parted(transfer[0]))
     np.testing.assert_allclose(found, 2.0 * simulated(transfer, DRIVE), rtol=0, atol=1e-8)
 

@@ -22,8 +22,9 @@ class ModesAfter(FreeForm):
 
     y = x + w_1 (mode_1[x] - x) + w_2 (mode_2[x] - x), x the response, mode = (1 + lead s / omega) omega² / (s² +
     2 damping omega s + omega²), omega = 2 pi / period: a sum of modes with unit static gain and residues of any phase,
-    in which those of higher frequency follow x at once [1]. So it is any stable transfer function of fourth order,
-    such as of resonances, antiresonances and stages in series. Exact for a response that is linear between its samples.
+    in which those of higher frequency follow x at once [1]. So they are transfer functions of fourth order with unit
+    static gain, such as of resonances, antiresonances and stages in series. Exact for a response that is linear between
+    its samples.
 
     [1] D. J. Ewins, Modal Testing: Theory, Practice and Application, 2nd ed., Research Studies Press (2000), ch. 2.
     """
