@@ -8,6 +8,7 @@ import pytest
 from hysteresis_bench import measure, registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.evidence.noise import noise
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.signals import Dataset, Record
 
@@ -208,3 +209,37 @@ def test_a_slip_is_no_drift_in_a_diagnosis(names_only):
     assert (found.verdict, found.effects) == ("no-effect-needed", ())
     assert found.after.held_out.rmse < 1.1 * found.floor
     assert sum("slipped" in said for said in found.warnings) == 2
+
+
+def controlled(reference, noise, step, drift):
+    """Input and measured output of a Bouc-Wen device that an integral controller makes follow a reference.
+
+    reference, noise : (samples,);  step : s;  drift : of the output, a unit of time
+    """
+    u, y = np.zeros(reference.size), np.zeros(reference.size)
+    z = 0.0
+    for k in range(reference.size):
+        if k:
+            u[k] = u[k - 1] + 2.0 * np.pi * 40.0 * step * (reference[k - 1] - y[k - 1]) / 0.8
+        du = (u[k] - (u[k - 1] if k else 0.0)) / 30.0
+        for _ in range(30):
+            z += 4.0 * du - 6.0 * abs(du) * z + 2.0 * du * abs(z)
+        y[k] = 0.6 * u[k] - 0.3 * z + drift * step * k + noise[k]
+    return u, y
+
+
+@pytest.mark.parametrize(("drift", "names"), [(0.0, ()), (0.03, ("drift",))])
+def test_what_a_controller_feeds_back_is_no_noise_and_no_effect(drift, names):
+    rng, time, level = np.random.default_rng(9), np.linspace(0.0, 4.0, 800), 0.01
+    records = []
+    for name, (slow, fast) in {"one": (0.5, 2.0), "two": (0.8, 3.3), "three": (0.35, 1.4)}.items():
+        reference = 0.5 * np.sin(2.0 * np.pi * slow * time) + 0.3 * np.sin(2.0 * np.pi * fast * time)
+        u, y = controlled(reference, level * rng.standard_normal(time.size), float(time[1]), drift)
+        records.append(Record(time, u, y, name))
+    data = Dataset(tuple(records), ("three",))
+    assert noise(records[0]).floor > 1.5 * level
+    found = diagnose(data, Question("bouc-wen", among=TEMPTING, options=DiagnosisOptions(jobs=1)))
+    assert found.effects == names
+    assert found.verdict == ("effect-found" if names else "no-effect-needed")
+    assert found.floor == pytest.approx(level, rel=0.1)
+    assert found.after.held_out.rmse < 1.1 * level

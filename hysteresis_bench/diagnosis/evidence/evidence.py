@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.memory import Memory, memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise, pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import floor_of
-from hysteresis_bench.diagnosis.evidence.view import View, views_of
-from hysteresis_bench.signals import Record
+from hysteresis_bench.diagnosis.evidence.view import View
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,16 +21,12 @@ class Evidence:
     floor: float
     memory: Memory
 
-    def heard_anew(self, quieter: Sequence[Record]) -> Evidence:
-        """With the noise of the same records without a disturbance that had passed for noise."""
-        loud = pooled_noise([view.noise for view in views_of(quieter)])
-        return replace(self, noise=loud, floor=floor_of(self.views, loud))
-
-    def at_most(self, rmse: float) -> Evidence:
-        """With a floor no higher than what a fitted model leaves: what it explains is no noise, and something fast that
-        it does not explain, such as a hum, may still have passed for some."""
-        silent = replace(self.noise, rms=0.0, through_input=0.0)
-        return replace(self, floor=min(self.floor, max(rmse, floor_of(self.views, silent))))
+    def heard_beside(self, simulated: Sequence[Array]) -> Evidence:
+        """With the noise of what a model leaves: what moves fast and is explained is none, such as what a controller
+        feeds back.  simulated : every record, (scored samples,)"""
+        views = tuple(view.heard_in(view.y - own) for view, own in zip(self.views, simulated, strict=True))
+        loud = pooled_noise([view.noise for view in views])
+        return replace(self, views=views, noise=loud, floor=floor_of(views, loud))
 
 
 def gather(views: tuple[View, ...]) -> Evidence:

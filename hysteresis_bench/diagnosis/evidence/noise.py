@@ -16,7 +16,7 @@ Biometrika 77 (1990) 521.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import comb, erf, exp, pi, sqrt
 from statistics import NormalDist
 
@@ -121,6 +121,23 @@ def noise(record: Record) -> Noise:
         by_lag=(fast, *slower),
         quantum=quantum,
         samples=y.size,
+    )
+
+
+def noise_left(known: Noise, time: Array, residuals: Array) -> Noise:
+    """Noise of one record, from what a model leaves of it: what the input's noise makes is in it already.
+
+    At most all that is left: a hum of a few samples a period is heard louder than it is.
+
+    known : from the record alone;  time, residuals : (scored samples,)
+    """
+    (fast, error), *slower = (fast_noise(time, residuals, lag) for lag in LAGS)
+    return replace(
+        known,
+        rms=max(min(fast, float(np.std(residuals))), known.quantum / sqrt(12)),
+        standard_error=error,
+        through_input=0.0,
+        by_lag=(fast, *(rms for rms, _ in slower)),
     )
 
 

@@ -2,8 +2,9 @@
 
 Dependence is tested by regression with autocorrelated errors (`coloured`), so that n samples are not taken
 for n independent ones. The spectrum is tested against its own smooth background, coherence between segments.
-p-values are corrected by Holm for all tests made. A test that cannot be made (no time base, no temperature,
-one cycle) is left out.
+Where the input may answer to the output, what is found must be in the input's past as well: noise that a controller
+feeds back is in its future. p-values are corrected by Holm for all tests made. A test that cannot be made (no time
+base, no temperature, one cycle) is left out.
 
 [1] G. M. Ljung, G. E. P. Box, Biometrika 65 (1978) 297.
 """
@@ -27,6 +28,9 @@ from hysteresis_bench.statistics import LEVEL, holm
 OVERALL = "all"
 FEWEST = 40
 """Samples below which a record is only told of together with the others."""
+
+TAPS = (0, 1, 2, 4, 8, 16)
+"""Samples."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +88,10 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
     for kind, columns, nuisance, words in _dependences(views):
         answer = autocorrelated.f_test(residuals, columns, nuisance)
         yield test(kind, answer.statistic, answer.p, answer.share, words)
+    if all(view.record.timed for view in views):
+        signed = [[np.column_stack([part, part * np.abs(part)]) for part in rates] for rates in _rates(views)]
+        answer = _weakest(residuals, signed)
+        yield test("rate", answer.statistic, answer.p, answer.share, "depends on the input's rate")
     for kind, courses in (
         ("input", [view.u for view in views]),
         ("output", [view.y - part for view, part in zip(views, residuals, strict=True)]),
@@ -93,8 +101,9 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
             often = f"{rounded(waves.cycles)} times over the range of" if waves.cycles else "along"
             words = f"repeats itself {often} the {kind}"
             yield test(f"ripple-{kind}", waves.test.statistic, waves.test.p, waves.test.share, words)
-    for kind, columns, words in _scatters(views):
-        answer = autocorrelated.f_test(_sizes(residuals), columns)
+    sizes = _sizes(residuals)
+    for kind, ways, words in _scatters(views):
+        answer = _weakest(sizes, ways)
         yield test(kind, answer.statistic, answer.p, answer.share, words)
     if all(view.record.timed and view.even for view in views):
         longest, residual = max(zip(views, residuals, strict=True), key=lambda pair: pair[1].size)
@@ -103,7 +112,9 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
             at = frequency_in(longest.record.units.get("time", "1"), line.frequency)
             words = f"has a spectral line at {at}{_drive(longest, line.frequency)}"
             yield test("spectral-line", line.ratio, line.p, line.share, words)
-            yield test("coherence", *spectrum.coherence(residual, longest.u), "follows the input linearly")
+            top, p, share = spectrum.coherence(residual, longest.u)
+            past = autocorrelated.f_test([residual], [_taps(longest)])
+            yield test("coherence", top, max(p, past.p), min(share, past.share), "follows the input linearly")
 
 
 def _noise_floor(views: Sequence[View], residuals: Sequence[Array]) -> tuple[float, float, float]:
@@ -144,29 +155,25 @@ def _dependences(views: Sequence[View]) -> Iterator[tuple[str, list[Array], list
     if high <= low:
         return
     x = [_scaled(view.u, low, high) for view in views]
-    turns = [_scored_turns(view) for view in views]
     inputs = [legvander(part, 4)[:, 1:] for part in x]
     yield "input", inputs, None, "depends on the input"
-    directions = [covariates.branch(view.u, _inside(own, view.u.size)) for view, own in zip(views, turns, strict=True)]
-    yield "direction", [part[:, None] for part in directions], None, "differs between rising and falling input"
-    if any(own.size for own in turns):
-        past = [part - _scaled(view.record.input[_last(view)], low, high) for part, view in zip(x, views, strict=True)]
+    last = [_last_turn(view) for view in views]
+    directions = [
+        covariates.branch(view.record.input, view.turns)[turn][:, None] for view, turn in zip(views, last, strict=True)
+    ]
+    yield "direction", directions, None, "differs between rising and falling input"
+    if any(view.turns.size for view in views):
+        past = [
+            part - _scaled(view.record.input[turn], low, high) for part, view, turn in zip(x, views, last, strict=True)
+        ]
         columns = [np.column_stack([part, part * np.abs(part), np.abs(part)]) for part in past]
         yield "past-extrema", columns, inputs, "depends on where the input last turned"
-    if max(own.size for own in turns) >= 6:
-        cycles = [covariates.cycle(view.u.size, own) for view, own in zip(views, turns, strict=True)]
+    if max(view.turns.size for view in views) >= 6:
+        cycles = [covariates.cycle(view.u.size, view.noticed - view.record.history) for view in views]
         most = max(float(part.max()) for part in cycles)
         columns = [np.column_stack([part / most, part / most * inner]) for part, inner in zip(cycles, x, strict=True)]
         yield "cycle", columns, inputs, "changes from cycle to cycle"
     if all(view.record.timed for view in views):
-        fastest = max(float(np.max(np.abs(view.rate))) for view in views)
-        rates = [view.rate / fastest for view in views]
-        yield (
-            "rate",
-            [np.column_stack([part, part * np.abs(part)]) for part in rates],
-            None,
-            "depends on the input's rate",
-        )
         elapsed = [(view.time - view.record.time[0]) for view in views]
         longest = max(float(part[-1]) for part in elapsed)
         times = [np.column_stack([part / longest, np.log1p(100.0 * part / longest)]) for part in elapsed]
@@ -180,21 +187,35 @@ def _dependences(views: Sequence[View]) -> Iterator[tuple[str, list[Array], list
             yield "temperature", columns, inputs, "depends on the temperature"
 
 
-def _scatters(views: Sequence[View]) -> Iterator[tuple[str, list[Array], str]]:
+def _rates(views: Sequence[View]) -> list[list[Array]]:
+    """Of all records, over the fastest one, each in the two ways of `View.rates`."""
+    ways = [list(one) for one in zip(*(view.rates for view in views), strict=True)]
+    largest = [max(float(np.max(np.abs(part))) for part in way) or 1.0 for way in ways]
+    return [[part / scale for part in way] for way, scale in zip(ways, largest, strict=True)]
+
+
+def _weakest(residuals: Sequence[Array], ways: Sequence[list[Array]]) -> autocorrelated.FTest:
+    """Of the tests on each of these ways to see the same columns: what is there is seen in all."""
+    return max((autocorrelated.f_test(residuals, columns) for columns in ways), key=lambda answer: answer.p)
+
+
+def _taps(view: View) -> Array:
+    """The input now and before, (scored samples, taps): what follows it does not precede it, as a controller does that
+    answers to the output's noise."""
+    u = view.u
+    return np.column_stack([np.concatenate([np.full(lag, u[0]), u[: u.size - lag]]) for lag in TAPS])
+
+
+def _scatters(views: Sequence[View]) -> Iterator[tuple[str, list[list[Array]], str]]:
+    """Name, ways to see the columns, words."""
     middle = 0.5 * (min(float(view.u.min()) for view in views) + max(float(view.u.max()) for view in views))
-    yield (
-        "scatter-input",
-        [np.abs(view.u - middle)[:, None] for view in views],
-        "scatters more at some inputs than at others",
-    )
+    inputs = [np.abs(view.u - middle)[:, None] for view in views]
+    yield "scatter-input", [inputs], "scatters more at some inputs than at others"
     if all(view.record.timed for view in views):
-        yield (
-            "scatter-rate",
-            [np.abs(view.rate)[:, None] for view in views],
-            "scatters more at some rates than at others",
-        )
+        speeds = [[np.abs(part)[:, None] for part in rates] for rates in _rates(views)]
+        yield "scatter-rate", speeds, "scatters more at some rates than at others"
         times = [(view.time - view.time[0])[:, None] for view in views]
-        yield "scatter-time", times, "scatters more at some times than at others"
+        yield "scatter-time", [times], "scatters more at some times than at others"
 
 
 def _sizes(residuals: Sequence[Array]) -> list[Array]:
@@ -213,19 +234,10 @@ def _scaled(u: Array, low: float, high: float) -> Array:
     return (2.0 * u - low - high) / (high - low)
 
 
-def _scored_turns(view: View) -> Array:
-    """Turning points of the whole input, history included, as samples of the scored part."""
-    return view.turns - view.record.history
-
-
-def _inside(turns: Array, samples: int) -> Array:
-    return turns[(turns > 0) & (turns < samples - 1)]
-
-
-def _last(view: View) -> Array:
-    """Index, in the whole record, of the last turning point before each scored sample."""
-    turns = np.concatenate([[0], view.turns])
-    return turns[np.searchsorted(turns, np.arange(view.record.history, view.record.input.size), side="right") - 1]
+def _last_turn(view: View) -> Array:
+    """Index, in the whole record, of the last turning point that is noticed by each scored sample; 0 before any."""
+    turns, noticed = np.concatenate([[0], view.turns]), np.concatenate([[0], view.noticed])
+    return turns[np.searchsorted(noticed, np.arange(view.record.history, view.record.input.size), side="right") - 1]
 
 
 def _drive(view: View, frequency: float) -> str:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.noise import Noise, fast_noise, noise
+from hysteresis_bench.diagnosis.evidence.noise import Noise, fast_noise, noise, noise_left
 from hysteresis_bench.signals import Record
 
 
@@ -29,6 +29,10 @@ class View:
         """Raises ValueError where the record has no output."""
         return cls(record, noise(record))
 
+    def heard_in(self, residuals: Array) -> View:
+        """With the noise that is left beside a model.  residuals : (scored samples,)"""
+        return replace(self, noise=noise_left(self.noise, self.time, residuals))
+
     @property
     def time(self) -> Array:
         return self.record.time[self.record.scored]
@@ -43,14 +47,27 @@ class View:
 
     @cached_property
     def turns(self) -> Array:
-        u = self.record.input
-        rms = fast_noise(self.record.time, u)[0] if self.record.history else self.noise.input_rms
-        return covariates.turning_points(u, covariates.resolution_of(u, rms))
+        return covariates.turning_points(self.record.input, self._resolution)
 
     @cached_property
-    def rate(self) -> Array:
-        """Of the input, (scored samples,)."""
-        return np.gradient(self.u, self.time)
+    def noticed(self) -> Array:
+        """The first sample, of each of `turns`, at which the input is seen to have turned there; int64[reversals]."""
+        u, ends = self.record.input, [*self.turns[1:], self.record.input.size - 1]
+        moved = (np.abs(u[turn : end + 1] - u[turn]) for turn, end in zip(self.turns, ends, strict=False))
+        return self.turns + np.array([int(np.argmax(one > self._resolution)) for one in moved], dtype=np.int64)
+
+    @cached_property
+    def _resolution(self) -> float:
+        u = self.record.input
+        rms = fast_noise(self.record.time, u)[0] if self.record.history else self.noise.input_rms
+        return covariates.resolution_of(u, rms)
+
+    @cached_property
+    def rates(self) -> tuple[Array, Array]:
+        """Of the input, (scored samples,): around every sample, and up to it. In the first the noise of the output
+        comes back, where a controller answers to it with the next sample; in the second lies the input's own noise."""
+        before = np.diff(self.u) / np.diff(self.time)
+        return np.gradient(self.u, self.time), np.concatenate([before[:1], before])
 
     @property
     def step(self) -> float:

@@ -18,17 +18,17 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
-from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.selection import Round, Selection
+from hysteresis_bench.fit.accuracy import simulated
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.progress import Step
 
 QUIETER = 0.9
-"""The noise without a disturbance that was found, over that with it, from which the search goes on with the new
-estimate; and what the bare model leaves, over the floor, from which it is the floor."""
+"""The noise in what a system leaves, over that of the records, from which it is the noise: the system explains what
+moves fast, such as a hum, or what a controller feeds back. And from which the search goes on with it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,15 +80,15 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
     with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
         (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
-        if base.rmse < QUIETER * evidence.floor:
-            evidence = evidence.at_most(base.rmse)
-        selection = Selection(thin, workers, evidence.floor, possible)
+        heard = _beside(evidence, full, base)
+        selection = Selection(thin, workers, heard.floor, possible)
         best = selection.run(base)
-        quieter = evidence.heard_anew(undisturbed(full, selection.named(best)))
-        if quieter.noise.floor < QUIETER * evidence.noise.floor:
-            evidence = quieter
-            selection.floor = evidence.floor
+        quieter = _beside(evidence, full, selection.named(best))
+        if quieter.noise.floor < QUIETER * heard.noise.floor:
+            selection.floor = quieter.floor
             best = selection.run(selection.named(best))
+            quieter = _beside(evidence, full, selection.named(best))
+        evidence, selection.floor = quieter, quieter.floor
         on_step(Step("free forms in the place of names"))
         best = with_free_forms(selection, best)
         # what an effect led to, the model alone may reach as well
@@ -112,6 +112,13 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
             impossible=impossible,
         )
         return _ending_with(bare, best if answers else base)
+
+
+def _beside(evidence: Evidence, full: Fitter, system: Hypothesis) -> Evidence:
+    """With the noise that a system leaves, where that is clearly less."""
+    built, values = full.fitted(system)
+    heard = evidence.heard_beside(simulated(built, full.stack.records, values))
+    return heard if heard.noise.floor < QUIETER * evidence.noise.floor else evidence
 
 
 def with_more(found: Found, asked: Sequence[Sequence[str]]) -> Found:

@@ -219,3 +219,43 @@ def test_a_dependence_of_the_share_that_is_overlooked_just_passes(samples: int) 
 def test_of_too_few_samples_everything_is_overlooked() -> None:
     assert overlooked(5.0, 4, 0.01) == 1.0
     assert overlooked(1e6, 4, 0.01) < 1e-4
+
+
+def controlled(noise: Array, bandwidth: float = 80.0) -> Array:
+    """Input that an integral controller makes of the output's noise beside a sine, answering with the next sample."""
+    gain = 2.0 * np.pi * bandwidth * float(TIME[1])
+    return SINE - lfilter([0.0, gain], [1.0, gain - 1.0], noise)
+
+
+def test_noise_that_a_controller_feeds_back_is_no_dependence() -> None:
+    rng = np.random.default_rng(21)
+    claimed = Counter[str]()
+    for _ in range(20):
+        noise = 0.2 * rng.standard_normal(TIME.size)
+        record = Record(TIME, controlled(noise), SINE)
+        rough = np.gradient(record.input, TIME)
+        assert f_test([noise], [rough[:, None]]).p < 1e-6  # the next input answers to it
+        claimed.update(found(told_of([record], [noise], [UNIT])) - {"noise-floor"})
+    assert max(claimed.values(), default=0) <= 1, claimed
+
+
+@pytest.mark.parametrize("cause", ["rate", "coherence"])
+def test_in_a_closed_loop_a_dependence_is_still_found(cause: str) -> None:
+    rng = np.random.default_rng(22)
+    slow = {"rate": np.gradient(SINE, TIME) / 30.0, "coherence": 2.0 * np.sin(2 * np.pi * 5 * TIME - 0.6)}[cause]
+    hits = 0
+    for _ in range(10):
+        noise = 0.2 * rng.standard_normal(TIME.size)
+        record = Record(TIME, controlled(noise), SINE)
+        hits += cause in found(told_of([record], [noise + 0.2 * slow], [UNIT]))
+    assert hits >= 9
+
+
+def test_noise_of_a_measured_input_is_no_dependence_on_its_rate() -> None:
+    rng = np.random.default_rng(23)
+    hits = 0
+    for _ in range(20):
+        own = 0.05 * rng.standard_normal(TIME.size)
+        record = Record(TIME, SINE + own, SINE)
+        hits += "rate" in found(told_of([record], [-2.0 * own], [UNIT]))
+    assert hits <= 1
