@@ -131,7 +131,7 @@ def _described(found: Found, equation: Equation, prepared: Prepared) -> Stage:
     """The final system with an equation's terms added to its output."""
     stack = replace(found.full.stack, ready={registry.DESCRIPTION: accepted(equation)})
     final = replace(found.final, names=found.final.names | {registry.DESCRIPTION})
-    return stage_of(replace(found.full, stack=stack), final, prepared)
+    return stage_of(replace(found, full=replace(found.full, stack=stack)), final, prepared)
 
 
 def _advice(found: Found, ties: Sequence[Tie], preparation: Preparation) -> Advice | None:

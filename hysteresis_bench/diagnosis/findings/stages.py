@@ -11,7 +11,6 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, residual_tests
 from hysteresis_bench.diagnosis.evidence.view import View
-from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
@@ -79,15 +78,16 @@ def settle_offset(prepared: Prepared, found: Found, question: Question) -> Stage
     nuisance = frozenset(registry.OFFSETS if order or own else [registry.RECORD_OFFSET]) & final.names
     bare = found.thin.bare(nuisance)
     if final.names == nuisance and final.rmse < bare.rmse:
-        before = after = stage_of(found.full, final, prepared)
+        before = after = stage_of(found, final, prepared)
     else:
-        before = stage_of(found.full, bare, prepared)
-        after = before if final.names == nuisance else stage_of(found.full, final, prepared)
+        before = stage_of(found, bare, prepared)
+        after = before if final.names == nuisance else stage_of(found, final, prepared)
     return Stages(before, after, offset, adopted, _waterfall(found, question.model, before, after))
 
 
-def stage_of(fitter: Fitter, hypothesis: Hypothesis, prepared: Prepared) -> Stage:
+def stage_of(found: Found, hypothesis: Hypothesis, prepared: Prepared) -> Stage:
     """A system fitted to all samples, and its errors on what was fitted and what was not."""
+    fitter = found.full
     problem = fitter.stack.problem(hypothesis.names)
     values = fitter.polished(hypothesis)
     ready, system = prepared.dataset, problem.system
@@ -98,7 +98,7 @@ def stage_of(fitter: Fitter, hypothesis: Hypothesis, prepared: Prepared) -> Stag
         values,
         accuracy(system, ready.fitted, values),
         accuracy(system, ready.held_out, values) if ready.held_out else None,
-        tuple(residual_tests(prepared.views, residuals)),
+        tuple(residual_tests(found.evidence.views, residuals)),
         between_samples(system, ready.held_out, values),
         constant_error(system, ready.held_out, values),
     )

@@ -28,7 +28,10 @@ from hysteresis_bench.progress import Step
 
 QUIETER = 0.9
 """The noise in what a system leaves, over that of the records, from which it is the noise: the system explains what
-moves fast, such as a hum, or what a controller feeds back. And from which the search goes on with it."""
+moves fast, such as a hum, or what a controller feeds back. And from which the search goes on with it. Of 144 made cases
+without a controller the bare law leaves 0.92 to 1.24 times the noise of the records but in two (0.83, 0.86), of 28 with
+one 0.49 to 0.99. With 0.95 about ten more of the 144 have 5 to 8 % less; with 0.8 five of the 28 keep up to 1.2 times
+their noise."""
 
 
 @dataclass(frozen=True, eq=False)
