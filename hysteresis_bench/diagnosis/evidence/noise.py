@@ -62,6 +62,7 @@ class Noise:
     by_lag : estimates from samples 1, 2 and 4 apart; equal where noise is white
     quantum : step of the output's grid of values, 0 where there is none
     samples : that the estimate rests on
+    explained : RMS of what moves as fast in the records and a model explains, unit of the output; 0 without a model
     """
 
     rms: float
@@ -72,6 +73,7 @@ class Noise:
     by_lag: tuple[float, ...]
     quantum: float
     samples: int
+    explained: float = 0.0
 
     @property
     def floor(self) -> float:
@@ -102,6 +104,8 @@ class Noise:
             told.append(f"noise of the input ({self.input_rms:.3g}) adds {self.through_input:.3g}")
         if self.coloured:
             told.append(f"cycles differ by {self.repeat_rms:.3g}: coloured noise, or something beside the input")
+        if self.explained > 0:
+            told.append(f"what else moves as fast in the records ({self.explained:.3g}) is explained")
         return "; ".join(told)
 
 
@@ -132,12 +136,14 @@ def noise_left(known: Noise, time: Array, residuals: Array) -> Noise:
     known : from the record alone;  time, residuals : (scored samples,)
     """
     (fast, error), *slower = (fast_noise(time, residuals, lag) for lag in LAGS)
+    rms = max(min(fast, float(np.std(residuals))), known.quantum / sqrt(12))
     return replace(
         known,
-        rms=max(min(fast, float(np.std(residuals))), known.quantum / sqrt(12)),
+        rms=rms,
         standard_error=error,
         through_input=0.0,
-        by_lag=(fast, *(rms for rms, _ in slower)),
+        by_lag=(fast, *(each for each, _ in slower)),
+        explained=sqrt(max(known.floor**2 - rms**2, 0.0)),
     )
 
 
@@ -161,6 +167,7 @@ def pooled_noise(parts: Sequence[Noise]) -> Noise:
         by_lag=tuple(pooled(values) for values in zip(*(part.by_lag for part in parts), strict=True)),
         quantum=max(part.quantum for part in parts),
         samples=samples,
+        explained=pooled([part.explained for part in parts]),
     )
 
 

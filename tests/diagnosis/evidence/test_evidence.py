@@ -31,11 +31,14 @@ def heard(rough: float, hum: float, level: float) -> tuple[Evidence, list[Array]
 def test_what_moves_fast_and_is_explained_is_no_noise(rough: float, hum: float) -> None:
     loud, explained = heard(rough, hum, 0.01)
     assert loud.noise.rms > 0.03
+    assert "explained" not in loud.noise.words
     quiet = loud.heard_beside(explained)
     assert quiet.noise.floor == pytest.approx(0.01, rel=0.06)
     assert quiet.floor == pytest.approx(0.01, rel=0.06)
     assert [view.noise.rms for view in quiet.views] == pytest.approx([0.01, 0.01], rel=0.1)
     assert not quiet.noise.input_heard
+    assert quiet.noise.explained == pytest.approx(np.sqrt(loud.noise.floor**2 - quiet.noise.floor**2), rel=0.02)
+    assert "is explained" in quiet.noise.words
 
 
 def test_what_is_smooth_is_none_either_and_what_is_not_explained_stays() -> None:
