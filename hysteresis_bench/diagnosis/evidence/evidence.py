@@ -9,7 +9,8 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.memory import Memory, memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise, pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import floor_of
-from hysteresis_bench.diagnosis.evidence.view import View
+from hysteresis_bench.diagnosis.evidence.view import View, views_of
+from hysteresis_bench.signals import Record
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,6 +21,11 @@ class Evidence:
     noise: Noise
     floor: float
     memory: Memory
+
+    def heard_anew(self, quieter: Sequence[Record]) -> Evidence:
+        """With the noise of the same records without a disturbance that had passed for noise."""
+        loud = pooled_noise([view.noise for view in views_of(quieter)])
+        return replace(self, noise=loud, floor=floor_of(self.views, loud))
 
     def heard_beside(self, simulated: Sequence[Array]) -> Evidence:
         """With the noise of what a model leaves: what moves fast and is explained is none, such as what a controller

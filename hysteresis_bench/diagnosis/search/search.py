@@ -18,6 +18,7 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import Prepared, thinned
 from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
@@ -27,11 +28,9 @@ from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.progress import Step
 
 QUIETER = 0.9
-"""The noise in what a system leaves, over that of the records, from which it is the noise: the system explains what
-moves fast, such as a hum, or what a controller feeds back. And from which the search goes on with it. Of 144 made cases
-without a controller the bare law leaves 0.92 to 1.24 times the noise of the records but in two (0.83, 0.86), of 28 with
-one 0.49 to 0.99. With 0.95 about ten more of the 144 have 5 to 8 % less; with 0.8 five of the 28 keep up to 1.2 times
-their noise."""
+"""The noise without a disturbance that was found, over that with it, from which the search goes on with the new
+estimate; and what the bare model leaves, over the floor, from which the noise is that in what it leaves: it explains
+what moves fast, such as what a controller feeds back."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,15 +82,14 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
     with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
         (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
-        heard = _beside(evidence, full, base)
-        selection = Selection(thin, workers, heard.floor, possible)
+        evidence = _beside(evidence, full, base)
+        selection = Selection(thin, workers, evidence.floor, possible)
         best = selection.run(base)
-        quieter = _beside(evidence, full, selection.named(best))
-        if quieter.noise.floor < QUIETER * heard.noise.floor:
-            selection.floor = quieter.floor
+        quieter = evidence.heard_anew(undisturbed(full, selection.named(best)))
+        if quieter.noise.floor < QUIETER * evidence.noise.floor:
+            evidence = quieter
+            selection.floor = evidence.floor
             best = selection.run(selection.named(best))
-            quieter = _beside(evidence, full, selection.named(best))
-        evidence, selection.floor = quieter, quieter.floor
         on_step(Step("free forms in the place of names"))
         best = with_free_forms(selection, best)
         # what an effect led to, the model alone may reach as well
@@ -118,10 +116,11 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
 
 
 def _beside(evidence: Evidence, full: Fitter, system: Hypothesis) -> Evidence:
-    """With the noise that a system leaves, where that is clearly less."""
+    """With the noise in what a system leaves, where that is clearly less than the floor: the floor was too high."""
+    if system.rmse >= QUIETER * evidence.floor:
+        return evidence
     built, values = full.fitted(system)
-    heard = evidence.heard_beside(simulated(built, full.stack.records, values))
-    return heard if heard.noise.floor < QUIETER * evidence.noise.floor else evidence
+    return evidence.heard_beside(simulated(built, full.stack.records, values))
 
 
 def with_more(found: Found, asked: Sequence[Sequence[str]]) -> Found:

@@ -18,7 +18,9 @@ from hysteresis_plugins.effects.resonance import fastest_period
 MODES = (1, 2)
 
 MOST = 3.0
-"""Largest weight: two near modes of opposite weights are an antiresonance between them."""
+"""Largest weight: two near modes of opposite weights are an antiresonance between them. With half
+and twice of it four made transfer functions end alike (1.00 to 1.02 times the noise), and so with LEADING, STARTS and
+DAMPING."""
 
 LEADING = 2.0
 """Largest part of the velocity, over the natural angular frequency: of a mount with critical damping it is 2."""
