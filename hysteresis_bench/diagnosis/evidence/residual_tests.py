@@ -30,7 +30,7 @@ FEWEST = 40
 """Samples below which a record is only told of together with the others."""
 
 TAPS = (0, 1, 2, 4, 8, 16)
-"""Samples."""
+"""Samples by which the input is late in what may follow it linearly."""
 
 
 @dataclass(frozen=True)
@@ -85,13 +85,9 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
     yield test("whiteness", *_whiteness(residuals), "is correlated from sample to sample")
     level = autocorrelated.f_test(residuals, autocorrelated.constants(residuals), level=False)
     yield test("offset", level.statistic, level.p, level.share, "has a mean that is not zero")
-    for kind, columns, nuisance, words in _dependences(views):
-        answer = autocorrelated.f_test(residuals, columns, nuisance)
+    for kind, ways, nuisance, words in _dependences(views):
+        answer = _weakest(residuals, ways, nuisance)
         yield test(kind, answer.statistic, answer.p, answer.share, words)
-    if all(view.record.timed for view in views):
-        signed = [[np.column_stack([part, part * np.abs(part)]) for part in rates] for rates in _rates(views)]
-        answer = _weakest(residuals, signed)
-        yield test("rate", answer.statistic, answer.p, answer.share, "depends on the input's rate")
     for kind, courses in (
         ("input", [view.u for view in views]),
         ("output", [view.y - part for view, part in zip(views, residuals, strict=True)]),
@@ -149,42 +145,44 @@ def _whiteness(residuals: Sequence[Array]) -> tuple[float, float, float]:
     return statistic, float(chdtrc(freedom, statistic)) if freedom else 1.0, 1.0 - left / whole if whole else 0.0
 
 
-def _dependences(views: Sequence[View]) -> Iterator[tuple[str, list[Array], list[Array] | None, str]]:
-    """Name, columns in question, columns that may count anyhow, words."""
+def _dependences(views: Sequence[View]) -> Iterator[tuple[str, list[list[Array]], list[Array] | None, str]]:
+    """Name, ways to see the columns in question, columns that may count anyhow, words."""
     low, high = min(float(view.u.min()) for view in views), max(float(view.u.max()) for view in views)
     if high <= low:
         return
     x = [_scaled(view.u, low, high) for view in views]
     inputs = [legvander(part, 4)[:, 1:] for part in x]
-    yield "input", inputs, None, "depends on the input"
+    yield "input", [inputs], None, "depends on the input"
     last = [_last_turn(view) for view in views]
     directions = [
         covariates.branch(view.record.input, view.turns)[turn][:, None] for view, turn in zip(views, last, strict=True)
     ]
-    yield "direction", directions, None, "differs between rising and falling input"
+    yield "direction", [directions], None, "differs between rising and falling input"
     if any(view.turns.size for view in views):
         past = [
             part - _scaled(view.record.input[turn], low, high) for part, view, turn in zip(x, views, last, strict=True)
         ]
         columns = [np.column_stack([part, part * np.abs(part), np.abs(part)]) for part in past]
-        yield "past-extrema", columns, inputs, "depends on where the input last turned"
+        yield "past-extrema", [columns], inputs, "depends on where the input last turned"
     if max(view.turns.size for view in views) >= 6:
         cycles = [covariates.cycle(view.u.size, view.noticed - view.record.history) for view in views]
         most = max(float(part.max()) for part in cycles)
         columns = [np.column_stack([part / most, part / most * inner]) for part, inner in zip(cycles, x, strict=True)]
-        yield "cycle", columns, inputs, "changes from cycle to cycle"
+        yield "cycle", [columns], inputs, "changes from cycle to cycle"
     if all(view.record.timed for view in views):
-        elapsed = [(view.time - view.record.time[0]) for view in views]
+        signed = [[np.column_stack([part, part * np.abs(part)]) for part in rates] for rates in _rates(views)]
+        yield "rate", signed, None, "depends on the input's rate"
+        elapsed = [view.time - view.record.time[0] for view in views]
         longest = max(float(part[-1]) for part in elapsed)
         times = [np.column_stack([part / longest, np.log1p(100.0 * part / longest)]) for part in elapsed]
-        yield "time", times, None, "drifts in time"
+        yield "time", [times], None, "drifts in time"
     if all("temperature" in view.record.columns for view in views):
         heat = [view.record.columns["temperature"][view.record.scored] for view in views]
         joined = np.concatenate(heat)
         if np.ptp(joined) > 0:
             heat = [(part - joined.mean()) / np.ptp(joined) for part in heat]
             columns = [np.column_stack([part, part * inner]) for part, inner in zip(heat, x, strict=True)]
-            yield "temperature", columns, inputs, "depends on the temperature"
+            yield "temperature", [columns], inputs, "depends on the temperature"
 
 
 def _rates(views: Sequence[View]) -> list[list[Array]]:
@@ -194,9 +192,11 @@ def _rates(views: Sequence[View]) -> list[list[Array]]:
     return [[part / scale for part in way] for way, scale in zip(ways, largest, strict=True)]
 
 
-def _weakest(residuals: Sequence[Array], ways: Sequence[list[Array]]) -> autocorrelated.FTest:
+def _weakest(
+    residuals: Sequence[Array], ways: Sequence[list[Array]], nuisance: list[Array] | None = None
+) -> autocorrelated.FTest:
     """Of the tests on each of these ways to see the same columns: what is there is seen in all."""
-    return max((autocorrelated.f_test(residuals, columns) for columns in ways), key=lambda answer: answer.p)
+    return max((autocorrelated.f_test(residuals, columns, nuisance) for columns in ways), key=lambda answer: answer.p)
 
 
 def _taps(view: View) -> Array:
