@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -195,6 +196,7 @@ class Dataset:
     hidden : what a virtual rig hid in its data, by name; empty for measurements
     notes : what was done to the records when they were read or predicted, a sentence each
     understood : how each record was read, a row of a table each, by heading
+    Raises UserError where two records share a name: by it they are held out.
     """
 
     records: tuple[Record, ...]
@@ -202,6 +204,11 @@ class Dataset:
     hidden: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     understood: tuple[Mapping[str, str], ...] = ()
+
+    def __post_init__(self) -> None:
+        twice = sorted(repr(name) for name, count in Counter(self.names).items() if count > 1)
+        if twice:
+            raise UserError("records", f"names must differ, and several records are named {', '.join(twice)}.")
 
     @property
     def fitted(self) -> tuple[Record, ...]:
@@ -250,12 +257,8 @@ class Dataset:
 
 
 def joined(*datasets: Dataset) -> Dataset:
-    """All records of several data sets, in order. Raises ValueError where two share a name."""
+    """All records of several data sets, in order. Raises UserError where two share a name."""
     records = tuple(record for dataset in datasets for record in dataset.records)
-    names = [record.name for record in records]
-    doubled = sorted({name for name in names if names.count(name) > 1})
-    if doubled:
-        raise ValueError(f"two records are both named {doubled[0]!r}; names must differ")
     hidden = {key: value for dataset in datasets for key, value in dataset.hidden.items()}
     held_out = tuple(name for dataset in datasets for name in dataset.held_out_names)
     notes = tuple(note for dataset in datasets for note in dataset.notes)

@@ -8,7 +8,7 @@ import pytest
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.signals import Record, Signal
+from hysteresis_bench.signals import Dataset, Record, Signal
 
 
 def loop():
@@ -92,3 +92,10 @@ def test_a_signal_is_refined_once():
     assert signal.finer(4)[1] is force
     assert signal.with_input(2.0 * signal.input).finer(4)[1][-1, 0] == pytest.approx(2.0 * 0.6**3)
     assert signal.finer(1)[1] is signal.input
+
+
+def test_records_of_one_name_are_no_data_set():
+    """By its name a record is held out: with it the other of that name would be, without a word."""
+    one = Record(np.arange(3.0), np.arange(3.0), np.arange(3.0))
+    with pytest.raises(UserError, match="several records are named 'record'"):
+        Dataset((one, one))

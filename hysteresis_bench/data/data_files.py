@@ -49,10 +49,11 @@ def read_data(
         for name, unit in record.units.items()
     }
     wanted, whose = (units, "the model's") if units else ({**UNITLESS, **stated}, "the other records'")
+    alike = [in_units(dataset, wanted, file, whose) for file, dataset in read]
     try:
-        return joined(*(in_units(dataset, wanted, file, whose) for file, dataset in read))
-    except ValueError as error:
-        raise UserError(", ".join(map(str, files)), f"{error}.") from None
+        return joined(*alike)
+    except UserError as error:
+        raise UserError(", ".join(map(str, files)), error.faults) from None
 
 
 def read_columns(path: Path, required: Sequence[str], layout: Layout = AS_THEY_SAY) -> Columns:

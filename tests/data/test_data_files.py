@@ -88,7 +88,7 @@ def test_units_must_agree_and_names_differ(tmp_path):
     newtons = write(tmp_path, "time,input [N],output\n0,1,2\n1,2,3\n", "b.csv")
     with pytest.raises(UserError, match=r'b.csv: column "input" is in N, .* in V'):
         read_data([volts, newtons])
-    with pytest.raises(UserError, match="two records are both named"):
+    with pytest.raises(UserError, match=r"a.csv, .*a.csv: names must differ, and several records are named 'a'"):
         read_data([volts, volts])
 
 

@@ -19,7 +19,7 @@ def record(amplitude: float, frequency: float) -> Record:
 
 def like(fitted: Sequence[tuple[float, float]], held_out: tuple[float, float]) -> bool:
     records = [record(*one) for one in (*fitted, held_out)]
-    unmeasured = replace(records[-1], output=np.full(PHASE.size, np.nan))  # what is held out is not opened
+    unmeasured = replace(records[-1], name="held out", output=np.full(PHASE.size, np.nan))  # it is not opened
     return judged(records[:-1], Dataset((*records[:-1], unmeasured), (unmeasured.name,))).like
 
 

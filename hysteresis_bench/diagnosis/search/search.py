@@ -30,7 +30,8 @@ from hysteresis_bench.progress import Step
 QUIETER = 0.9
 """The noise without a disturbance that was found, over that with it, from which the search goes on with the new
 estimate; and what the bare model leaves, over the floor, from which the noise is that in what it leaves: it explains
-what moves fast, such as what a controller feeds back."""
+what moves fast, such as what a controller feeds back. In 144 made cases in open loop the latter was 0.95 at least, so
+that twice the distance from 1 changes none of them."""
 
 
 @dataclass(frozen=True, eq=False)
