@@ -45,7 +45,7 @@ LAWS = {
     **{
         law: dict(registry.load("models", law).loaded.example.parameters)
         for law in (
-            "bouc-wen-generalized", "chaboche", "dahl", "energy-based", "ferroelectric", "flag-shaped",
+            "bouc-wen-generalized", "chaboche", "dahl", "duhem", "energy-based", "ferroelectric", "flag-shaped",
             "folz-filiatrault", "maxwell-slip", "pinching", "prandtl-ishlinskii", "prandtl-ishlinskii-modified",
             "preisach", "self-centring",
         )
