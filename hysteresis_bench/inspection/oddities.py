@@ -11,6 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.hidden_turns import hidden_turns_told
 from hysteresis_bench.data.spikes import spikes_told
 from hysteresis_bench.data.stuck import stuck_told
 from hysteresis_bench.data.units import frequency_in, seconds_in
@@ -54,6 +55,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         _aliasing,
         _jitter,
         stuck_told,
+        hidden_turns_told,
         spikes_told,
         jumps_told,
     )

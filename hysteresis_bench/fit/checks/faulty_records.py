@@ -1,11 +1,12 @@
-"""What is done about faults of measured outputs before a fit: where stuck it is left out, what comes after a jump gets
-an offset of its own, spikes are bridged."""
+"""What is done about faults of records before a fit: where the output is stuck it is left out, and where the input
+turned in a gap until it turns again; what comes after a jump gets an offset of its own, spikes are bridged."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
 from hysteresis_bench import registry
+from hysteresis_bench.data.hidden_turns import hidden_turns_in_words, parted_at_hidden_turns
 from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
 from hysteresis_bench.data.spikes import spikes_in_words, without_spikes
 from hysteresis_bench.data.stuck import parted_where_stuck, stuck_in_words
@@ -16,7 +17,7 @@ def without_faults(dataset: Dataset, effects: Collection[str] = (registry.RECORD
     """The data set that is fitted with these effects, by name, and a note on every fault that is mended: jumps only
     where an effect gives every record an offset of its own. What is stuck ends in a leap, which would be taken for a
     jump; and a step for half of a spike."""
-    sound = parted_where_stuck(dataset)
+    sound = parted_at_hidden_turns(parted_where_stuck(dataset))
     return without_spikes(parted_at_jumps(sound) if registry.RECORD_OFFSET in effects else sound)
 
 
@@ -30,7 +31,7 @@ def jumps_told(record: Record) -> str:
 
 
 def counted(records: Sequence[Record]) -> tuple[str, ...]:
-    """What measured outputs say that no device did, and that an error counts where nothing is mended."""
-    looks = (stuck_in_words, jumps_in_words, spikes_in_words)
+    """What records say that no device did, or leave out, and that an error counts where nothing is mended."""
+    looks = (stuck_in_words, hidden_turns_in_words, jumps_in_words, spikes_in_words)
     found = (words for record in records if record.output is not None for look in looks if (words := look(record)))
     return tuple(f"{words} The errors count it." for words in found)
