@@ -31,7 +31,7 @@ in 0.9 and in 1.4 times the time."""
 class Doubt:
     """cause : the law that does clearly better;  agreement : of the laws, where none leaves about the noise
     untested : far from the noise, only one excitation speaks for what was adopted, of one amplitude and frequency
-    carrying : what was adopted and carries the loop alone
+    carrying : what was adopted and carries the loop alone; what has no dynamics may be of its shape then
     free : free forms that were adopted though the noise is not reached: they follow any law's fault
     """
 
@@ -56,6 +56,7 @@ class Doubt:
         """Of the adopted effects those that are more than stand-ins for the law, as far as is known, each with what is
         taken in its place around other laws."""
         adopted = [name for name in adopted if name not in (*self.carrying, *self.free)]
+        adopted = [name for name in adopted if not (self.carrying and is_shape(name))]
         if self == Doubt(carrying=self.carrying, free=self.free):
             return {name: () for name in adopted}
         likes = self.agreement.effects if self.agreement else {}

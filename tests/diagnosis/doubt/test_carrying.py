@@ -44,3 +44,10 @@ def test_what_carries_the_loop_is_not_held():
     doubt = Doubt(carrying=("play-bank",))
     assert doubt.holding(("creep", "play-bank")) == {"creep": ()}
     assert doubt != Doubt()
+
+
+def test_beside_it_what_has_no_dynamics_may_be_the_shape_of_the_law():
+    """As the one-sided dead zones of a modified Prandtl-Ishlinskii law were, which passed for a stop."""
+    doubt = Doubt(carrying=("rayleigh-hysteresis",))
+    assert doubt.holding(("creep", "rayleigh-hysteresis", "stop-above")) == {"creep": ()}
+    assert Doubt().holding(("creep", "stop-above")) == {"creep": (), "stop-above": ()}
