@@ -6,7 +6,7 @@ import pytest
 from hysteresis_plugins.models.duhem import Duhem
 from tests.plugins.truths import assert_found_again, record, simulated, waves
 
-KNOWN, CURVE = {"rate": 3.0, "centre": 0.1, "width": 0.4}, {"slope": 0.3, "height": 1.0}
+KNOWN, CURVE = {"alpha": 3.0, "centre": 0.1, "width": 0.4}, {"slope": 0.3, "height": 1.0}
 SENSES = {"anticlockwise": {"lost": 0.1, "lost_height": 0.6}, "clockwise": {"lost": -0.4, "lost_height": -0.2}}
 
 
@@ -29,4 +29,4 @@ def test_what_came_before_is_forgotten_along_the_path():
     histories = [np.concatenate([np.linspace(start, 0.0, 50), onward]) for start in (1.5, -1.5)]
     gap = np.subtract(*(simulated(Duhem(), u, np.arange(200.0), **values) for u in histories))[49:]
     path = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(onward, prepend=0.0)))])
-    np.testing.assert_allclose(gap, gap[0] * np.exp(-KNOWN["rate"] * path), atol=1e-12)
+    np.testing.assert_allclose(gap, gap[0] * np.exp(-KNOWN["alpha"] * path), atol=1e-12)

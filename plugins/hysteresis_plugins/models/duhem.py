@@ -4,8 +4,8 @@
     hysteresis in ferromagnetically soft materials.
 [2] J. W. Macki, P. Nistri, P. Zecca, SIAM Review 35 (1993) 94: Duhem models among mathematical models of hysteresis.
 
-Legend: u input, y output, f the curve that y goes towards, g the slope with which it leaves a reversal, alpha in [1]
-the rate.
+Legend: u input, y output, f the curve that y goes towards, g the slope with which it leaves a reversal, alpha how fast
+it goes there along the input's path.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TALLEST = 5.0
 class Duhem(Model):
     """Duhem: an output that goes towards a curve along the input's path, Coleman and Hodgdon's law [1].
 
-    y' = rate |u'| (f(u) - y) + g(u) u' [1, 2];  f = slope u + height tanh((u - centre) / width),
+    y' = alpha |u'| (f(u) - y) + g(u) u' [1, 2];  f = slope u + height tanh((u - centre) / width),
     g = f' - lost - (lost_height / width) / cosh^2((u - centre) / width). Rate-independent, linear in the last four
     parameters. Minor loops drift towards the curve: what came before is forgotten along the path, not wiped out by a
     larger swing. Where lost and lost_height are not negative the loop runs anticlockwise, output over input; where
@@ -42,7 +42,7 @@ class Duhem(Model):
     """
 
     parameters = (
-        Parameter("rate", 1e-1, 1e3, "1/{input}", "log", meaning="with which the output goes towards the curve"),
+        Parameter("alpha", 1e-1, 1e3, "1/{input}", "log", meaning="how fast the output goes towards the curve"),
         Parameter("centre", -1.0, 1.0, "{input}", meaning="of the curve's steep part"),
         Parameter("width", 0.02, 2.0, "{input}", "log", meaning="of the curve's steep part", positive=True),
         Parameter("slope", -5.0, 5.0, "{output}/{input}", meaning="of the curve beyond its steep part"),
@@ -54,14 +54,14 @@ class Duhem(Model):
     properties = ("rate-independent",)
     example = Example(
         4.0,
-        {"rate": 1.2, "centre": 0.2, "width": 1.4, "slope": 0.3, "height": 1.0, "lost": 0.1, "lost_height": 0.6},
+        {"alpha": 1.2, "centre": 0.2, "width": 1.4, "slope": 0.3, "height": 1.0, "lost": 0.1, "lost_height": 0.6},
         stream=27,
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.duhem import duhem
 
-        y = np.empty((signal.input.shape[0], p.rate.size))
+        y = np.empty((signal.input.shape[0], p.alpha.size))
         duhem(signal.input, np.stack(p), y)
         return y
 
@@ -69,14 +69,14 @@ class Duhem(Model):
         """The output goes to the curve over a thousandth of the input's span to thirty spans; the steep part in the
         input's range, from a fiftieth of the span to twice of it wide; slopes up to 50 ratios of the spans, heights up
         to five times the range of the output."""
-        rate, centre, width, slope, height, lost, lost_height = self.parameters
+        alpha, centre, width, slope, height, lost, lost_height = self.parameters
         span, side = input_span(records), sense(records)
         low = min(float(np.min(record.input)) for record in records)
         high = max(float(np.max(record.input)) for record in records)
         middle = 0.5 * (low + high)
         steepest, tallest = STEEPEST * steepness(records), TALLEST * output_span(records)
         return (
-            rate.within(0.03 / span, 1000.0 / span),
+            alpha.within(0.03 / span, 1000.0 / span),
             centre.within(middle - 0.5 * span, middle + 0.5 * span),
             width.within(0.02 * span, 2.0 * span),
             slope.within(-steepest, steepest),
