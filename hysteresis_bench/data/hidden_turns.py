@@ -1,8 +1,8 @@
 """Gaps between samples in which the input turned: nobody measured how far it went.
 
 A device with hysteresis remembers where its input turned. Behind such a gap it does what no model can tell, until the
-input turns where it was measured. So what lies between is simulated and not scored, and the rest is a record of its
-own, all before it history.
+input has turned twice where it was measured: the branch from the first of these turns leads to what nobody measured. So
+what lies between is simulated and not scored, and the rest is a record of its own, all before it history.
 """
 
 from __future__ import annotations
@@ -33,14 +33,14 @@ MOST = 5
 
 
 def parted_at_hidden_turns(dataset: Dataset) -> Dataset:
-    """The data set without what lies between such gaps and the next turn, and a note on each record that has some."""
+    """The data set without what lies between such gaps and the second turn, and a note on each record that has some."""
     return parted(dataset, _apart)
 
 
 def hidden_turns_told(record: Record) -> str:
     """Where the input of a record turned in a gap, and what is done about it; empty where it did not."""
     found = hidden_turns(record)
-    return f"{_words(record, found)} What comes after is fitted from its next turn on." if found else ""
+    return f"{_words(record, found)} What comes after is fitted from the second turn on." if found else ""
 
 
 def hidden_turns_in_words(record: Record) -> str:
@@ -50,8 +50,8 @@ def hidden_turns_in_words(record: Record) -> str:
 
 
 def hidden_turns(record: Record) -> list[tuple[int, int]]:
-    """Last sample before each gap in which the input turned, and the one at which it turns next, or the number of
-    samples; empty where there is none."""
+    """Last sample before each gap in which the input turned, and the one at which it then turns for the second time, or
+    the number of samples; empty where there is none."""
     time, u = record.time, record.input
     if time.size < 4 * SIDE or not np.ptp(u) > 0.0:
         return []
@@ -61,7 +61,7 @@ def hidden_turns(record: Record) -> list[tuple[int, int]]:
     found = [int(gap) for gap in gaps if _turned(time, u, int(gap))]
     if len(found) > MOST:
         return []
-    return [(gap, _next_turn(u, gap + 1)) for gap in found]
+    return [(gap, _second_turn(u, gap + 1)) for gap in found]
 
 
 def _turned(time: Array, u: Array, gap: int) -> bool:
@@ -88,9 +88,9 @@ def _line(away: Array, values: Array) -> tuple[float, float, float]:
     return float(value), float(slope), float(np.sqrt(np.sum(off**2) / (away.size - 2)))
 
 
-def _next_turn(u: Array, first: int) -> int:
+def _second_turn(u: Array, first: int) -> int:
     turns = turning_points(np.ascontiguousarray(u[first:]), BEYOND * float(np.ptp(u)))
-    return first + int(turns[0]) if turns.size else u.size
+    return first + int(turns[1]) if turns.size > 1 else u.size
 
 
 def _apart(record: Record) -> tuple[tuple[Record, ...], str]:
@@ -101,7 +101,7 @@ def _apart(record: Record) -> tuple[tuple[Record, ...], str]:
     ends = [*(gap + 1 for gap, _ in found), record.time.size]
     return (
         parts(record, list(zip(begins, ends, strict=True))),
-        f"{_words(record, found)} What comes after is fitted from its next turn on",
+        f"{_words(record, found)} What comes after is fitted from the second turn on",
     )
 
 

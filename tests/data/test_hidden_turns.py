@@ -1,4 +1,4 @@
-"""Gaps in which the input turned are found without a model, told, and what follows is fitted from the next turn on."""
+"""Gaps in which the input turned are found without a model and told; what follows is fitted from the second turn on."""
 
 from dataclasses import replace
 
@@ -22,15 +22,15 @@ def lost(*stretches: tuple[int, int], drive=DRIVE) -> Record:
     return Record(TIME[kept], drive[kept], np.tanh(drive[kept]), "loop")
 
 
-PEAK, FLANK, TROUGH = (420, 480), (370, 430), 550
-"""Over the third peak, at 450; on the flank before it; the trough that follows."""
+PEAK, FLANK, NEXT = (420, 480), (370, 430), 650
+"""Over the third peak, at 450; on the flank before it; the peak that follows after a trough."""
 
 
-def test_a_peak_in_a_gap_is_found_with_the_turn_after_it():
+def test_a_peak_in_a_gap_is_found_with_the_second_turn_after_it():
     record = lost(PEAK)
     ((gap, turn),) = hidden_turns(record)
     assert record.time[gap] == TIME[PEAK[0] - 1]
-    assert record.time[turn] == TIME[TROUGH]
+    assert record.time[turn] == TIME[NEXT]
     assert "2.095 to 2.4" in hidden_turns_told(record)
     assert any("turned in a gap" in said for said in oddities([record]))
     assert any("turned in a gap" in said for said in counted([record]))
@@ -68,18 +68,18 @@ def test_where_every_turn_is_lost_the_samples_are_few():
     assert hidden_turns(lost(*lost_turns)) == []
 
 
-def test_what_lies_between_the_gap_and_the_next_turn_is_not_scored():
+def test_what_lies_between_the_gap_and_the_second_turn_is_not_scored():
     record = lost(PEAK)
     first, second = parted_at_hidden_turns(Dataset((record,))).records
     assert first.time[-1] == TIME[PEAK[0] - 1]
-    assert second.name == "loop from 2.75"
+    assert second.name == "loop from 3.25"
     assert np.array_equal(second.time, record.time)
-    assert second.time[second.history] == TIME[TROUGH]
+    assert second.time[second.history] == TIME[NEXT]
     (note,) = without_faults(Dataset((record,))).notes
-    assert "next turn on as loop from 2.75." in note
+    assert "second turn on as loop from 3.25." in note
 
 
 def test_parts_of_what_is_held_out_are_held_out():
     other = replace(lost(PEAK), name="other")
     dataset = parted_at_hidden_turns(Dataset((lost(PEAK), other), ("other",)))
-    assert dataset.held_out_names == ("other", "other from 2.75")
+    assert dataset.held_out_names == ("other", "other from 3.25")
