@@ -97,7 +97,7 @@ def _apart(record: Record) -> tuple[tuple[Record, ...], str]:
     found = hidden_turns(record)
     if not found or record.output is None:
         return (record,), ""
-    begins = [record.history, *(turn for _, turn in found)]
+    begins = [record.history, *(max(turn, record.history) for _, turn in found)]
     ends = [*(gap + 1 for gap, _ in found), record.time.size]
     return (
         parts(record, list(zip(begins, ends, strict=True))),

@@ -83,3 +83,10 @@ def test_parts_of_what_is_held_out_are_held_out():
     other = replace(lost(PEAK), name="other")
     dataset = parted_at_hidden_turns(Dataset((lost(PEAK), other), ("other",)))
     assert dataset.held_out_names == ("other", "other from 3.25")
+
+
+def test_what_is_not_scored_stays_so():
+    """A gap in the history: the record goes on from the second turn, or from where it is scored."""
+    for skipped, begins in ((2.6, TIME[NEXT]), (3.5, 3.5)):
+        (one,) = parted_at_hidden_turns(Dataset((lost(PEAK).skip(skipped),))).records
+        assert one.time[one.history] == pytest.approx(begins)
