@@ -38,3 +38,11 @@ def given_out(s, row, out, i, first, used):  # type: ignore[no-untyped-def]
     else:
         for j in range(used):
             out[i, first + j] = s[row + j]
+
+
+@njit(forceinline=True, error_model="numpy")
+def given_to_lanes(s, parameters, first, used):  # type: ignore[no-untyped-def]
+    """The first rows of s from all rows of parameters, (rows, swarm), from column `first` on."""
+    for j in range(LANES):
+        for row in range(parameters.shape[0]):
+            s[row * LANES + j] = parameters[row, first + min(j, used - 1)]

@@ -16,7 +16,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.columns import given_out, taken_in
+from hysteresis_bench.kernels.columns import given_out, given_to_lanes, taken_in
 from hysteresis_bench.kernels.elementary import exponential, exponential_less_1
 from hysteresis_bench.kernels.lanes import LANES
 
@@ -97,9 +97,7 @@ def duhem(u: Array, parameters: Array, y: Array) -> None:
     for first in range(0, swarm, LANES):
         used = min(LANES, swarm - first)
         s = np.zeros(ROWS * LANES)
-        for j in range(LANES):
-            for row in range(7):
-                s[row * LANES + j] = parameters[row, first + min(j, used - 1)]
+        given_to_lanes(s, parameters, first, used)
         taken_in(s, BEFORE, u, 0, first, used)
         for j in range(LANES):
             s[T + j] = tanh_of((s[BEFORE + j] - s[CENTRE + j]) / s[WIDTH + j])

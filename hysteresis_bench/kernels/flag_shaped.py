@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.columns import given_out, taken_in
+from hysteresis_bench.kernels.columns import given_out, given_to_lanes, taken_in
 from hysteresis_bench.kernels.lanes import LANES
 from hysteresis_bench.kernels.rounded_corner import bent
 
@@ -56,9 +56,8 @@ def flag_shaped(u: Array, parameters: Array, force: Array) -> None:
     for first in range(0, swarm, LANES):
         used = min(LANES, swarm - first)
         s = np.zeros(ROWS * LANES)
+        given_to_lanes(s, parameters, first, used)
         for j in range(LANES):
-            for row in range(7):
-                s[row * LANES + j] = parameters[row, first + min(j, used - 1)]
             s[RETURN + j] = s[BEND + j] * max(s[RETURN + j], NARROWEST)
             s[ROOT + j] = 1.0 / s[SHARPNESS + j]
         for i in range(samples):

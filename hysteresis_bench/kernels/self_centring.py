@@ -11,7 +11,7 @@ import numpy as np
 from numba import njit
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.columns import given_out, taken_in
+from hysteresis_bench.kernels.columns import given_out, given_to_lanes, taken_in
 from hysteresis_bench.kernels.lanes import LANES
 from hysteresis_bench.kernels.rounded_corner import bent
 
@@ -44,9 +44,8 @@ def self_centring(u: Array, z: Array, parameters: Array) -> None:
     for first in range(0, swarm, LANES):
         used = min(LANES, swarm - first)
         s = np.zeros(ROWS * LANES)
+        given_to_lanes(s, parameters, first, used)
         for j in range(LANES):
-            for row in range(7):
-                s[row * LANES + j] = parameters[row, first + min(j, used - 1)]
             s[STEEPNESS + j], s[ROOT + j] = 1.0 / s[BEND + j], 1.0 / s[SHARPNESS + j]
         for i in range(samples):
             taken_in(s, NOW, u, i, first, used)

@@ -55,8 +55,8 @@ class Doubt:
     def holding(self, adopted: Sequence[str]) -> dict[str, tuple[str, ...]]:
         """Of the adopted effects those that are more than stand-ins for the law, as far as is known, each with what is
         taken in its place around other laws."""
-        adopted = [name for name in adopted if name not in (*self.carrying, *self.free)]
-        adopted = [name for name in adopted if not (self.carrying and is_shape(name))]
+        others = {*self.carrying, *self.free, *(filter(is_shape, adopted) if self.carrying else ())}
+        adopted = [name for name in adopted if name not in others]
         if self == Doubt(carrying=self.carrying, free=self.free):
             return {name: () for name in adopted}
         likes = self.agreement.effects if self.agreement else {}

@@ -1,5 +1,5 @@
 """What is done about faults of records before a fit: where the output is stuck it is left out, and where the input
-turned in a gap until it turns again; what comes after a jump gets an offset of its own, spikes are bridged."""
+turned in a gap until it has turned twice; what comes after a jump gets an offset of its own, spikes are bridged."""
 
 from __future__ import annotations
 
