@@ -11,8 +11,8 @@ from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.findings.stages import Stage
 from hysteresis_bench.diagnosis.findings.terms import Equation
 from hysteresis_bench.diagnosis.findings.ties import Tie
+from hysteresis_bench.diagnosis.search.round import Round
 from hysteresis_bench.diagnosis.search.search import Found
-from hysteresis_bench.diagnosis.search.selection import Round
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,8 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.noise import fast_noise
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.chains import LAST, optimum
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import GivenUp, Hypothesis, at_bound
 from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.starts import grid
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack, is_curve
@@ -26,7 +27,6 @@ from hysteresis_bench.fit.unseen.excitations import Excitations, excitations
 from hysteresis_bench.fit.unseen.left_out import cut, errors_without, left_out_errors
 from hysteresis_bench.fit.unseen.whole import left_out
 from hysteresis_bench.free_forms import FreeForm
-from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record
 
 BUDGET = 1500
@@ -36,18 +36,12 @@ SEARCHES = 2
 CHAINS = 4
 """Of them followed downhill."""
 
-FIRST, LAST = 8, 40
-"""Iterations of all chains, then of the best one."""
-
 RANDOM = 192
 """Points screened for another basin of attraction after an effect has joined."""
 
 DROWNED = 4.0
 """Of the RMS noise of a measured input, what a width on its axis must have: noise rarely swings wider. Bands that noise
 alone made were 0.9 and 1.9 times as wide; with twice this, real ones of up to 8 times are missed."""
-
-EDGE = 1e-3
-"""A parameter within this share of its box from an edge lies at its bound."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,10 +89,13 @@ class Fitter:
             current = alone.refitted(best)
         return [self.followed(replace(current, names=names))]
 
-    def extended(self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None) -> Hypothesis:
+    def extended(
+        self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None, near: float = np.inf
+    ) -> Hypothesis:
         """With one effect more, from several values of its own parameters.
 
         other : further values of the known parameters to begin from, as of a system with another effect in its place
+        near : the RMSE to come up to, as that system's; what stays far behind is given up
         """
         names = hypothesis.names | {name}
         problem = self.stack.problem(names)
@@ -118,7 +115,7 @@ class Fitter:
             )
             best = np.argsort(problem.squares(exchanged), kind="stable")[:CHAINS]
             points = np.column_stack([points, exchanged[:, best]])
-        found = self._finished(problem, names, points)
+        found = self._finished(problem, names, points, near)
         # a curve may take over what the shape of the law alone was bent to; one that is linear is solved for at once
         effect = self.stack.effect(name)
         curve = linear and is_curve(effect) and not effect.linear
@@ -266,22 +263,22 @@ class Fitter:
         )
         return points[:, np.argsort(problem.squares(points), kind="stable")[:CHAINS]]
 
-    def _finished(self, problem: Problem, names: frozenset[str], starts: Array) -> Hypothesis:
-        points, squares = descend(problem, starts, iterations=FIRST)
-        best = points[:, np.argsort(squares, kind="stable")[:2]]
-        points, squares = descend(problem, best, iterations=FIRST)
-        points, squares = descend(problem, points[:, [int(np.argmin(squares))]], iterations=LAST)
-        point = points[:, 0]
+    def _finished(self, problem: Problem, names: frozenset[str], starts: Array, near: float = np.inf) -> Hypothesis:
+        points, given_up = optimum(problem, starts, near)
+        point, left = points[:, 0], errors(problem, points)[:, 0]
+        values = values_of(problem, point)
+        if given_up:
+            return GivenUp(names, values, left, left, ())
+        own = problem.system.model.linear
         return Hypothesis(
             names,
-            values_of(problem, point),
-            errors(problem, points)[:, 0],
+            values,
+            left,
             left_out_errors(problem, point, self.blocks),
             tuple(
                 p.name
                 for p, x in zip(problem.space.parameters, point, strict=True)
-                if at_bound(replace(p, null=0.0) if p.name in problem.system.model.linear else p, x)
-                and p.name not in self._limits(names)
+                if at_bound(replace(p, null=0.0) if p.name in own else p, x) and p.name not in self._limits(names)
             ),
         )
 
@@ -289,12 +286,3 @@ class Fitter:
         """Parameters of free forms that may lie at an edge of their box."""
         forms = {name: effect for name in names if isinstance(effect := self.stack.effect(name), FreeForm)}
         return {f"{name}.{parameter}" for name, form in forms.items() for parameter in form.limits}
-
-
-def at_bound(parameter: Parameter, x: float) -> bool:
-    """Does it lie at an edge of its box that does not mean "off"?  x : in the unit interval"""
-    if EDGE < x < 1.0 - EDGE:
-        return False
-    edge = parameter.lower if x <= EDGE else parameter.upper
-    off = parameter.null is not None and (edge == parameter.null or (parameter.scaling == "log" and x <= EDGE))
-    return not off

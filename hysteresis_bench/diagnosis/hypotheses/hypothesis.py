@@ -8,6 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.parameters import Parameter
+
+EDGE = 1e-3
+"""A parameter within this share of its box from an edge lies at its bound."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,3 +38,18 @@ class Hypothesis:
     def apart(self, other: Hypothesis) -> float:
         """RMS difference of the two fitted outputs, unit of the output."""
         return float(np.sqrt(np.mean((self.residuals - other.residuals) ** 2)))
+
+
+@dataclass(frozen=True, eq=False)
+class GivenUp(Hypothesis):
+    """Far behind what it was to come up to, and followed no further. Its errors left out are those of the fit: less
+    than they are, and too much already."""
+
+
+def at_bound(parameter: Parameter, x: float) -> bool:
+    """Does it lie at an edge of its box that does not mean "off"?  x : in the unit interval"""
+    if EDGE < x < 1.0 - EDGE:
+        return False
+    edge = parameter.lower if x <= EDGE else parameter.upper
+    off = parameter.null is not None and (edge == parameter.null or (parameter.scaling == "log" and x <= EDGE))
+    return not off

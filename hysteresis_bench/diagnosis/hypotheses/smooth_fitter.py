@@ -13,8 +13,8 @@ from functools import cached_property
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter, at_bound
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis, at_bound
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import split
@@ -48,7 +48,9 @@ class SmoothFitter(Fitter):
     def step_by_step(self, names: frozenset[str]) -> list[Hypothesis]:
         return []
 
-    def extended(self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None) -> Hypothesis:
+    def extended(
+        self, hypothesis: Hypothesis, name: str, other: Mapping[str, float] | None = None, near: float = np.inf
+    ) -> Hypothesis:
         return self.from_anywhere(hypothesis.names | {name})
 
     def reduced(self, hypothesis: Hypothesis, name: str) -> Hypothesis:

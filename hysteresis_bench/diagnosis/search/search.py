@@ -22,7 +22,8 @@ from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
-from hysteresis_bench.diagnosis.search.selection import Round, Selection
+from hysteresis_bench.diagnosis.search.round import Round
+from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.fit.accuracy import simulated
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.progress import Step

@@ -1,7 +1,8 @@
 """Which effects does the data ask for? Forward selection, exchange, backward elimination.
 
-An effect is adopted when it passes three tests: the nested-model test at LEVEL over the number of candidates;
-blocks left out, on which it must win by `CLEAR` standard errors; and it must matter: a claim is made about an
+An effect is adopted when it passes three tests: the nested-model test at LEVEL over the number of candidates, or the
+same level on blocks left out, as that test is blind for what is slow beside a residual that another effect leaves;
+blocks left out anyhow, on which it must win by `CLEAR` standard errors; and it must matter: a claim is made about an
 effect that the noise does not hide, not about every trace. Of those that pass, the one with the best
 cross-validated error joins; then every adopted effect is weighed against each alternative in its place, given
 the others, because the first to join may have been a stand-in for two; then what is no longer needed leaves. In
@@ -11,18 +12,19 @@ every effect takes a little of its error.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import GivenUp, Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.fallback import predicting
-from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
+from hysteresis_bench.diagnosis.search.round import Round
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage, deviations
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""
@@ -59,22 +61,13 @@ BETTER = 0.999
 MOST = 5
 
 
-@dataclass(frozen=True, eq=False)
-class Round:
-    """What was tried on top of `current`: hypotheses and tests by candidate; `chosen` is empty where none passed."""
-
-    current: Hypothesis
-    hypotheses: Mapping[str, Hypothesis]
-    tests: Mapping[str, NestedTest]
-    chosen: str
-
-
 @dataclass(eq=False)
 class Selection:
     """The search's state and result.
 
     floor : RMS that a perfect model leaves;  candidates : names that can be tried
     forms : free forms that can stand in the place of an adopted one
+    known, behind : fits by their effects;  which were given up, and what they were to come up to
     """
 
     fitter: Fitter
@@ -84,6 +77,7 @@ class Selection:
     forms: tuple[str, ...] = ()
     rounds: list[Round] = field(default_factory=list)
     known: dict[frozenset[str], Hypothesis] = field(default_factory=dict)
+    behind: set[tuple[Any, ...]] = field(default_factory=set)
     sought: set[frozenset[str]] = field(default_factory=set)
     weighed: set[tuple[frozenset[str], str]] = field(default_factory=set)
 
@@ -93,8 +87,7 @@ class Selection:
         visited = {current.names: current.rmse}
         while True:
             found = self.tried_on(current) if len(self.adopted(current)) < most else None
-            if found:
-                self.rounds.append(found)
+            self.rounds += [found] if found else []
             if found and found.chosen:
                 better = self.settled(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
             else:
@@ -123,9 +116,7 @@ class Selection:
         return self._reduced(hypothesis, [name])[0]
 
     def with_each(self, hypothesis: Hypothesis, names: Sequence[str]) -> list[Hypothesis]:
-        return self._ask(
-            [("extended", hypothesis, name) for name in names], [hypothesis.names | {name} for name in names]
-        )
+        return [*self._extended([(hypothesis, name) for name in names]).values()]
 
     def compared(self, smaller: Hypothesis, larger: Hypothesis) -> tuple[NestedTest, float]:
         """The nested-model test, and by how many standard errors the larger system wins on blocks left out."""
@@ -133,11 +124,13 @@ class Selection:
 
     def needed(self, smaller: Hypothesis, larger: Hypothesis, candidates: int = 1) -> bool:
         """Does the larger system pass the three tests against the smaller?"""
+        clear = advantage(larger.left_out, smaller.left_out, self.fitter.blocks)
         return (
             smaller.rmse > MATTERS * max(larger.rmse, self.floor / MATTERS**2)
             and self.share(smaller, larger) > SHARE
-            and advantage(larger.left_out, smaller.left_out, self.fitter.blocks) > CLEAR
-            and self.fitter.test(smaller, larger).p * candidates < LEVEL
+            and clear > CLEAR
+            and not any(self.fitter.drowned(larger, name) for name in larger.names - smaller.names)
+            and (self.fitter.test(smaller, larger).p * candidates < LEVEL or clear > deviations(LEVEL / candidates))
         )
 
     def excess(self, hypothesis: Hypothesis) -> float:
@@ -232,8 +225,8 @@ class Selection:
         return current
 
     def _dropped(self, current: Hypothesis) -> Hypothesis | None:
-        names = self.adopted(current)
-        spare = [hypothesis for hypothesis in self._reduced(current, names) if not self.needed(hypothesis, current)]
+        smaller = self._reduced(current, self.adopted(current))
+        spare = [hypothesis for hypothesis in smaller if not self.needed(hypothesis, current)]
         return min(spare, key=lambda hypothesis: hypothesis.cv_rmse) if spare else None
 
     def exchanged(self, current: Hypothesis) -> Hypothesis | None:
@@ -253,20 +246,16 @@ class Selection:
         """instead_of : a system with one effect more, in the place of which others are tried;  more : candidates"""
         taken = hypothesis.names | (instead_of.names if instead_of else frozenset())
         names = [name for name in dict.fromkeys((*self.candidates, *more)) if name not in taken]
-        other = instead_of.values if instead_of else None
-        keys = [hypothesis.names | {name} for name in names]
-        return dict(zip(names, self._ask([("extended", hypothesis, name, other) for name in names], keys), strict=True))
+        other = (instead_of.values, instead_of.rmse) if instead_of else ()
+        return self._extended([(hypothesis, name, *other) for name in names])
 
     def _sought(self, hypotheses: dict[str, Hypothesis]) -> dict[str, Hypothesis]:
         """The contenders are fitted again from other starts: a system is as good as its best fit, however it was come
         upon."""
         least = min((hypothesis.rmse for hypothesis in hypotheses.values()), default=0.0)
         ranked = sorted(hypotheses, key=lambda name: hypotheses[name].rmse)
-        close = [
-            name
-            for name in ranked[:CONTENDERS]
-            if hypotheses[name].rmse < WITHIN * least and hypotheses[name].names not in self.sought
-        ]
+        best = [name for name in ranked[:CONTENDERS] if hypotheses[name].rmse < WITHIN * least]
+        close = [name for name in best if hypotheses[name].names not in self.sought]
         again = self.workers.map([("refitted", hypotheses[name]) for name in close])
         self.known |= {hypothesis.names: hypothesis for hypothesis in again}
         self.sought |= {hypothesis.names for hypothesis in again}
@@ -291,9 +280,13 @@ class Selection:
         for names in [names for names in larger if self.known[names].rmse * BETTER > hypothesis.rmse]:
             del self.known[names]
 
-    def _ask(self, questions: Sequence[tuple[Any, ...]], names: Sequence[frozenset[str]]) -> list[Hypothesis]:
-        """Only what is not known yet."""
-        new = [place for place, key in enumerate(names) if key not in self.known]
-        for place, hypothesis in zip(new, self.workers.map([questions[place] for place in new]), strict=True):
-            self.known[names[place]] = hypothesis
-        return [self.known[key] for key in names]
+    def _extended(self, questions: Sequence[tuple[Any, ...]]) -> dict[str, Hypothesis]:
+        """By the name that joins, those that were not given up. Asked is what is not known yet."""
+        keys = [(smaller.names | {name}, *of[1:]) for smaller, name, *of in questions]
+        new = [place for place, key in enumerate(keys) if key[0] not in self.known and key not in self.behind]
+        for place, found in zip(new, self.workers.map([("extended", *questions[one]) for one in new]), strict=True):
+            if isinstance(found, GivenUp):
+                self.behind.add(keys[place])
+            else:
+                self.known[found.names] = found
+        return {name: self.known[s.names | {name}] for s, name, *_ in questions if s.names | {name} in self.known}
