@@ -22,6 +22,7 @@ from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
+from hysteresis_bench.fit.unseen.advantage import advantage
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.excitations import Excitations, excitations
 from hysteresis_bench.fit.unseen.left_out import cut, errors_without, left_out_errors
@@ -186,11 +187,13 @@ class Fitter:
         return errors(problem, problem.space.to_unit(values[:, None]))[:, 0]
 
     def test(self, smaller: Hypothesis, larger: Hypothesis) -> NestedTest:
-        """Is the larger one better than chance? Not where what it has more is no wider than the input's noise."""
+        """Is the larger one better than chance, as fitted or on blocks left out? Not where what it has more is no wider
+        than the input's noise."""
         if any(self.drowned(larger, name) for name in larger.names - smaller.names):
             return NestedTest(0.0, 1.0, 0)
         nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
-        return self._tested(smaller, larger, 0 if nuisance else SEARCHED)
+        fitted = self._tested(smaller, larger, 0 if nuisance else SEARCHED)
+        return fitted.either(advantage(larger.left_out, smaller.left_out, self.blocks))
 
     def _tested(self, smaller: Hypothesis, larger: Hypothesis, searched: int) -> NestedTest:
         known, all_ = (self.fitted_values(hypothesis) for hypothesis in (smaller, larger))

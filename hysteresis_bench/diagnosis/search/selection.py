@@ -1,8 +1,7 @@
 """Which effects does the data ask for? Forward selection, exchange, backward elimination.
 
-An effect is adopted when it passes three tests: the nested-model test at LEVEL over the number of candidates, or the
-same level on blocks left out, as that test is blind for what is slow beside a residual that another effect leaves;
-blocks left out anyhow, on which it must win by `CLEAR` standard errors; and it must matter: a claim is made about an
+An effect is adopted when it passes three tests: the nested-model test at LEVEL over the number of candidates;
+blocks left out, on which it must win by `CLEAR` standard errors; and it must matter: a claim is made about an
 effect that the noise does not hide, not about every trace. Of those that pass, the one with the best
 cross-validated error joins; then every adopted effect is weighed against each alternative in its place, given
 the others, because the first to join may have been a stand-in for two; then what is no longer needed leaves. In
@@ -24,7 +23,7 @@ from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.fallback import predicting
 from hysteresis_bench.diagnosis.search.round import Round
-from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage, deviations
+from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
 LEVEL = 0.01
 """Of a claim where nothing is hidden, over all candidates of a round."""
@@ -124,13 +123,11 @@ class Selection:
 
     def needed(self, smaller: Hypothesis, larger: Hypothesis, candidates: int = 1) -> bool:
         """Does the larger system pass the three tests against the smaller?"""
-        clear = advantage(larger.left_out, smaller.left_out, self.fitter.blocks)
         return (
             smaller.rmse > MATTERS * max(larger.rmse, self.floor / MATTERS**2)
             and self.share(smaller, larger) > SHARE
-            and clear > CLEAR
-            and not any(self.fitter.drowned(larger, name) for name in larger.names - smaller.names)
-            and (self.fitter.test(smaller, larger).p * candidates < LEVEL or clear > deviations(LEVEL / candidates))
+            and advantage(larger.left_out, smaller.left_out, self.fitter.blocks) > CLEAR
+            and self.fitter.test(smaller, larger).p * candidates < LEVEL
         )
 
     def excess(self, hypothesis: Hypothesis) -> float:

@@ -27,13 +27,6 @@ def advantage(ours: Array, theirs: Array, blocks: Blocks) -> float:
     return by_rank if by_rank * by_mean > 0.0 and abs(by_rank) > abs(by_mean) else by_mean
 
 
-def deviations(level: float) -> float:
-    """Standard errors that an advantage exceeds with this probability where there is none."""
-    from scipy.special import ndtri
-
-    return float(-ndtri(level))
-
-
 def _signed_ranks(gains: Array) -> float:
     """Wilcoxon's statistic in standard errors of the null, normal approximation."""
     from scipy.stats import rankdata

@@ -39,10 +39,10 @@ def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units) -> T
         ],
         [_candidate(candidate) for candidate in candidates if candidate["applicable"]],
         note="An adopted effect is judged against the final model without it, any other against the final model with "
-        "it. p of the nested-model test, before the correction for the number of candidates. Clear by: how many "
-        "standard errors it wins on blocks of samples that were left out of the fit. Explains: its share of the mean "
-        "square over the noise that is left without it; what explains less than half is not named, as it may be a part "
-        "of what is wrong for another reason.",
+        "it. p of the nested-model test or of blocks of samples that were left out of the fit, twice the smaller one, "
+        "before the correction for the number of candidates. Clear by: how many standard errors it wins on these "
+        "blocks. Explains: its share of the mean square over the noise that is left without it; what explains less "
+        "than half is not named, as it may be a part of what is wrong for another reason.",
     )
 
 

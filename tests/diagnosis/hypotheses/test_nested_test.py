@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, nested_test
+from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
 
 
 def fits(rng, memory, signal=0.0, size=1500):
@@ -40,3 +40,19 @@ def test_power():
 def test_no_gain_is_no_evidence():
     residuals = [np.random.default_rng(7).standard_normal(100)]
     assert nested_test(residuals, residuals, 3, 5).p == 1.0
+
+
+def test_blocks_left_out_may_speak_of_what_is_slow_beside_a_residual_that_is_fast():
+    """A drift of more than what another effect leaves, and a little more left of what is fast."""
+    fast = lfilter([1.0], [1.0, -0.95], np.random.default_rng(8).standard_normal(2000))
+    before, after = [fast + 2.2 * np.std(fast) * np.linspace(-1.0, 1.0, 2000)], [1.05 * fast]
+    found = nested_test(before, after, 3, 8)
+    assert np.mean(before[0] ** 2) > 2.0 * np.mean(after[0] ** 2)
+    assert found.p == 1.0
+    assert found.either(6.0).p < 1e-8
+    assert found.either(1.0).p > 0.3
+
+
+def test_both_are_paid_for():
+    assert NestedTest(9.0, 1e-3, 3).either(0.0).p == pytest.approx(2e-3)
+    assert NestedTest(9.0, 0.9, 3).either(-8.0).p == 1.0

@@ -1,12 +1,8 @@
 """Which system is taken, of hand-made ones."""
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
 
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import GivenUp
-from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from tests.diagnosis.search.handmade import ASIDE, fit, leaving, selection_of
 
 
@@ -111,18 +107,3 @@ def test_what_was_given_up_is_no_alternative_and_is_asked_once():
     worse = fit("a", 0.4)
     selection.alternatives(worse, "a")
     assert [question[2] for question in selection.workers.asked[asked:] if question[0] == "extended"] == ["b"]
-
-
-@pytest.mark.parametrize(("deviations", "joins"), [(2.5, False), (4.0, True)])
-def test_blocks_left_out_may_speak_where_the_nested_test_is_silent(deviations, joins):
-    """It has little power for what is slow beside a residual that another effect leaves; 28 candidates."""
-    smaller, larger = fit("", leaving(4.0)), fit("a", leaving(1.0))
-    each = np.random.default_rng(0).standard_normal(48)
-    gains = np.repeat((each - each.mean()) / each.std() + deviations / np.sqrt(48.0), 10)
-    ours = np.sqrt(larger.left_out**2 + 4.0)
-    theirs = np.sqrt(ours**2 + gains)
-    smaller, larger = replace(smaller, left_out=theirs), replace(larger, left_out=ours)
-    selection = selection_of(smaller, larger)
-    selection.fitter.test = lambda *_: NestedTest(1.0, 1.0, 1)
-    assert selection.compared(smaller, larger)[1] == pytest.approx(deviations, rel=0.1)
-    assert bool(selection.needed(smaller, larger, 28)) is joins
