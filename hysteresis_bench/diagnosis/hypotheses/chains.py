@@ -17,8 +17,8 @@ HOPES = (3.0, 1.5)
 1.5 and 1.25 give up 600, 2 of the 29 among them."""
 
 MET = 1e-3
-"""Two chains are one where they are this near in every coordinate of the unit box, and their squares as a share. Of 6920
-chains in three made cases 64 % are left after eight iterations, with ten times this 58 %."""
+"""Two chains are one where they are this near in every coordinate of the unit box, and their squares as a share. Of
+6920 chains in three made cases 64 % are left after eight iterations, with ten times this 58 %."""
 
 
 def optimum(problem: Problem, starts: Array, near: float = np.inf) -> tuple[Array, bool]:
