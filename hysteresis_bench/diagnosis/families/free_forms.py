@@ -216,8 +216,9 @@ def _in_place(selection: Selection, current: Hypothesis, forms: list[str]) -> li
     alike = {name: (name, *selection.rivals(current, name)) for name in selection.adopted(current)}
     selection.candidates = candidates
     pairs = [(n, f) for n in alike for f in forms if effect(f).family in {effect(one).family for one in alike[n]}]
-    smaller, of = {name: selection.without(current, name) for name, _ in pairs}, (current.values, current.rmse)
-    return selection.workers.map([("extended", smaller[name], form, *of) for name, form in pairs])
+    smaller = {name: selection.without(current, name) for name, _ in pairs}
+    other = (current.values, current.rmse)
+    return selection.workers.map([("extended", smaller[name], form, *other) for name, form in pairs])
 
 
 def _clearly(selection: Selection, current: Hypothesis, system: Hypothesis) -> bool:

@@ -12,9 +12,9 @@ FIRST, LAST = 8, 40
 """Iterations of all chains, of the best two, and at last of the best one."""
 
 HOPES = (3.0, 1.5)
-"""Times the error to come up to, beyond which a fit is given up: after half of the first iterations, and after all. Of
-644 fits in seven made cases 29 came up to it in the end. These give up 582 and none of the 29, twice these 330, none;
-1.5 and 1.25 give up 600, 2 of the 29 among them."""
+"""Times the error to come up to, beyond which a fit is followed no further: after half of the first iterations, and
+after all. Of 644 fits in seven made cases 29 came up to it in the end. These end 582 and none of the 29, twice these
+330, none; 1.5 and 1.25 end 600, 2 of the 29 among them."""
 
 MET = 1e-3
 """Two chains are one where they are this near in every coordinate of the unit box, and their squares as a share. Of
@@ -22,7 +22,7 @@ MET = 1e-3
 
 
 def optimum(problem: Problem, starts: Array, near: float = np.inf) -> tuple[Array, bool]:
-    """The best point (dimension, 1) that is come to; whether it was given up on the way, as far behind.
+    """The best point (dimension, 1) that is come to; whether it was left on the way, as far behind.
 
     starts : (dimension, chains) in the unit box;  near : the RMSE to come up to
     """

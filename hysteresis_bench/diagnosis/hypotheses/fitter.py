@@ -14,7 +14,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.evidence.noise import fast_noise
 from hysteresis_bench.diagnosis.hypotheses.chains import LAST, optimum
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import GivenUp, Hypothesis, at_bound
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind, Hypothesis, at_bound
 from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
 from hysteresis_bench.diagnosis.hypotheses.starts import grid
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack, is_curve
@@ -96,7 +96,7 @@ class Fitter:
         """With one effect more, from several values of its own parameters.
 
         other : further values of the known parameters to begin from, as of a system with another effect in its place
-        near : the RMSE to come up to, as that system's; what stays far behind is given up
+        near : the RMSE to come up to, as that system's; what stays far behind is `Behind`
         """
         names = hypothesis.names | {name}
         problem = self.stack.problem(names)
@@ -267,11 +267,11 @@ class Fitter:
         return points[:, np.argsort(problem.squares(points), kind="stable")[:CHAINS]]
 
     def _finished(self, problem: Problem, names: frozenset[str], starts: Array, near: float = np.inf) -> Hypothesis:
-        points, given_up = optimum(problem, starts, near)
+        points, behind = optimum(problem, starts, near)
         point, left = points[:, 0], errors(problem, points)[:, 0]
         values = values_of(problem, point)
-        if given_up:
-            return GivenUp(names, values, left, left, ())
+        if behind:
+            return Behind(names, values, left, left, ())
         own = problem.system.model.linear
         return Hypothesis(
             names,

@@ -41,7 +41,7 @@ class Hypothesis:
 
 
 @dataclass(frozen=True, eq=False)
-class GivenUp(Hypothesis):
+class Behind(Hypothesis):
     """Far behind what it was to come up to, and followed no further. Its errors left out are those of the fit: less
     than they are, and too much already."""
 

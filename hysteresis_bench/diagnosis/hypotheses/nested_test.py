@@ -7,7 +7,8 @@ parameters more than it has.
 
 Two systems are each fitted to the errors as they are, not as they are filtered. Beside a residual that another effect
 leaves, what is slow is filtered away, and the larger system may even leave more than the smaller one. Samples left out
-need no model of the errors: the paired comparison of blocks of them may speak in the test's place, for which both pay.
+need no model of the errors: the paired comparison of blocks of them may speak in the test's place. The smaller p-value
+of the two counts, doubled (Bonferroni).
 
 [1] R. B. Davies, Hypothesis testing when a nuisance parameter is present only under the alternative,
 Biometrika 64 (1977) 247.

@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import GivenUp, Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind, Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.fallback import predicting
@@ -66,7 +66,7 @@ class Selection:
 
     floor : RMS that a perfect model leaves;  candidates : names that can be tried
     forms : free forms that can stand in the place of an adopted one
-    known, behind : fits by their effects;  which were given up, and what they were to come up to
+    known, behind : fits by their effects;  which were left behind, and what they were to come up to
     """
 
     fitter: Fitter
@@ -278,11 +278,11 @@ class Selection:
             del self.known[names]
 
     def _extended(self, questions: Sequence[tuple[Any, ...]]) -> dict[str, Hypothesis]:
-        """By the name that joins, those that were not given up. Asked is what is not known yet."""
+        """By the name that joins, those that were not left behind. Asked is what is not known yet."""
         keys = [(smaller.names | {name}, *of[1:]) for smaller, name, *of in questions]
         new = [place for place, key in enumerate(keys) if key[0] not in self.known and key not in self.behind]
         for place, found in zip(new, self.workers.map([("extended", *questions[one]) for one in new]), strict=True):
-            if isinstance(found, GivenUp):
+            if isinstance(found, Behind):
                 self.behind.add(keys[place])
             else:
                 self.known[found.names] = found

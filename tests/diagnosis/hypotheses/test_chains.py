@@ -40,9 +40,9 @@ def starts(*xs):
 
 def test_chains_that_have_met_are_followed_once():
     one = problem(two_basins)
-    point, given_up = optimum(one, starts(0.15, 0.18, 0.21, 0.22, 0.25, 0.28))
+    point, left = optimum(one, starts(0.15, 0.18, 0.21, 0.22, 0.25, 0.28))
     assert point[:, 0] == pytest.approx([DEEP, 0.5], abs=0.02)
-    assert not given_up
+    assert not left
     first, last = 6 * 3, 3  # chains times (dimension + 1)
     assert one.widths[0] == first
     assert one.widths[-1] == last
@@ -56,11 +56,11 @@ def test_another_basin_is_kept_beside_many_chains_in_one():
     assert point[0, 0] == pytest.approx(DEEP, abs=0.02)
 
 
-@pytest.mark.parametrize(("ratio", "given_up"), [(0.9 * HOPES[-1], False), (1.1 * HOPES[-1], True)])
-def test_what_stays_far_behind_is_given_up(ratio, given_up):
+@pytest.mark.parametrize(("ratio", "behind"), [(0.9 * HOPES[-1], False), (1.1 * HOPES[-1], True)])
+def test_what_stays_far_behind_is_left(ratio, behind):
     one = problem(two_basins)
     point, _ = optimum(one, starts(0.15, 0.7))
     rmse = float(np.sqrt(one.squares(point)[0] / one.samples))
     again, told = optimum(one, starts(0.15, 0.7), near=rmse / ratio)
-    assert told is given_up
+    assert told is behind
     assert again == pytest.approx(point, abs=1e-3)

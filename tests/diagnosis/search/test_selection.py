@@ -2,7 +2,7 @@
 
 import pytest
 
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import GivenUp
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind
 from tests.diagnosis.search.handmade import ASIDE, fit, leaving, selection_of
 
 
@@ -95,9 +95,9 @@ def test_an_effect_that_only_led_to_a_better_fit_of_the_model_leaves_again():
     assert [one.chosen for one in selection.rounds] == ["a", ""]
 
 
-def test_what_was_given_up_is_no_alternative_and_is_asked_once():
+def test_what_was_left_behind_is_no_alternative_and_is_asked_once():
     current, far = fit("a", 0.2), fit("b", 0.5)
-    behind = GivenUp(far.names, far.values, far.residuals, far.left_out, ())
+    behind = Behind(far.names, far.values, far.residuals, far.left_out, ())
     selection = selection_of(fit("", 1.0), current, behind, fit("c", 0.21), candidates="abc")
     assert [*selection.alternatives(current, "a")] == ["c"]
     assert behind.names not in selection.known
