@@ -55,6 +55,8 @@ class IntervalFile(Form):
     half_widths: dict[str, float]
     records: int
     speeds: list[float]
+    duration: float | None = None
+    rest: float | None = None
 
 
 class ModelFile(Form):

@@ -73,8 +73,21 @@ def test_what_lies_beyond_the_fit_is_told(model):
     assert "beyond the fitted inputs" in wide
     (fast,) = model.interval.beyond(replace(record, time=record.time / 10.0), ranges)
     assert "times the fastest fitted record's speed" in fast
+    again = record.time + record.time[-1] + record.time[1]
+    twice = replace(record, time=np.append(record.time, again), input=np.tile(record.input, 2), output=None)
+    (long,) = model.interval.beyond(twice, ranges)
+    assert "it lasts 2 times as long as the longest fitted record" in long
     index = {**record.units, "time": "sample"}
     assert list(model.interval.beyond(replace(record, time=record.time / 10.0, units=index), ranges)) == []
+
+
+@pytest.mark.parametrize("imperfect", ["", "noisy-input", "coarse", "uneven"])
+def test_an_input_that_rests_longer_is_told(model, imperfect):
+    mixed, stairs = data(("mixed", "stairs"), imperfect=imperfect).records
+    ranges = model.data["ranges"]["input"]
+    assert not any("stays where it is" in said for said in model.interval.beyond(mixed, ranges))
+    (said,) = [said for said in model.interval.beyond(stairs, ranges) if "stays where it is" in said]
+    assert "where the device creeps or relaxes" in said
 
 
 def test_the_file_keeps_it_and_older_ones_have_none(model, tmp_path):
