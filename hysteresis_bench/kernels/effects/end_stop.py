@@ -18,7 +18,7 @@ def stop_above(y: Array, level: Array, share: Array, rounding: Array) -> None:
 
     y : float64[samples, swarm]     overwritten
     level : float64[swarm]          unit of y
-    share : float64[swarm]          0 to 1 of what passes the level is held back; 0: y to the last bit
+    share : float64[swarm]          of what passes the level, held back; above 1 it comes back; 0: y to the last bit
     rounding : float64[swarm]       w >= 0, unit of y; 0: a corner
     """
     samples, swarm = y.shape

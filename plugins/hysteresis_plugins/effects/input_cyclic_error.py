@@ -64,7 +64,7 @@ class InputCyclicError(Effect):
         return inner(signal.with_input(acting))
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Amplitudes up to a thirtieth of the input's range: with the longest period that nearly turns it back."""
+        """Amplitudes up to a thirtieth of the input's range: with the longest period that already turns it back."""
         return _ripple.box(self.parameters, [record.input for record in records], (input_span(records) or 1.0) / 30.0)
 
     def inapplicable(self, records: Sequence[Record]) -> str:

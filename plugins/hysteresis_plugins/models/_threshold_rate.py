@@ -68,8 +68,8 @@ class ThresholdRate(Effect):
         return inner(signal)  # the model has applied it
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """What lowers no record's thresholds by more than nine tenths, and raises them up to ten times: what they are
-        at one cycle a unit of time may be far from every record."""
+        """What lowers no record's thresholds by more than nine tenths, and raises them by up to ten times themselves:
+        what they are at one cycle a unit of time may be far from every record."""
         found = [_logarithm(record) for record in records]
         above, below = max(1.0, max(found)), max(1.0, -min(found))
         far = max(above, below)

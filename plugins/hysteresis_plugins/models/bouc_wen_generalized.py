@@ -84,9 +84,10 @@ class BoucWenGeneralized(Model):
         return force
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """The displacement of yielding from a thousandth of the span of the input to all of it; degradation up to a
-        fiftieth of strength and stiffness, and hardening by ten times, over the longest path; forces up to five times
-        the range of the output, on the side of the loops' sense, on both where the data do not say."""
+        """The displacement of yielding from a thousandth of the span of the input to all of it; over the longest path
+        degradation of the strength up to an eleventh (n = 1), of the stiffness up to a fiftieth, and hardening by ten
+        times; forces up to five times the range of the output, on the side of the loops' sense, on both where the data
+        do not say."""
         boxes = {q.name: q for q in self.parameters}
         span, longest = input_span(records), path(records)
         most = STEEPEST * steepness(records)

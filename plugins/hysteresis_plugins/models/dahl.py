@@ -35,7 +35,7 @@ class Dahl(Model):
 
     parameters = (
         Parameter("distance", 1e-3, 1.0, "{input}", "log", meaning="over which friction builds up", positive=True),
-        Parameter("i", 0.1, 3.0, meaning="exponent: below 1 for ductile, above for brittle contacts"),
+        Parameter("i", 0.1, 3.0, meaning="exponent: below 1 for brittle, above for ductile contacts"),
         Parameter("gap", 0.0, 0.2, "{input}", meaning="half of the clearance that is crossed without friction"),
         Parameter("slope", -5.0, 5.0, "{output}/{input}", meaning="of the part without hysteresis"),
         Parameter("F_C", 0.0, 5.0, "{output}", meaning="Coulomb friction"),

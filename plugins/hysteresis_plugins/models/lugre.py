@@ -70,8 +70,8 @@ class Lugre(Model):
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
         """The distance from a thousandth of the span of the input to all of it, the Stribeck velocity from a
-        thousandth of the largest velocity to all of it; forces up to five times the range of the output, on the side of
-        the loops' sense, on both where the data do not say."""
+        thousandth of a velocity that one sample in twenty exceeds to all of it; forces up to five times the range of
+        the output, on the side of the loops' sense, on both where the data do not say."""
         distance, stiction, slowest, slope, *forces = self.parameters
         span, side = input_span(records), -sense(records)
         fastest, strongest, most = _fastest(records), STRONGEST * output_span(records), STEEPEST * steepness(records)

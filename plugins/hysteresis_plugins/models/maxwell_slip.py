@@ -47,9 +47,9 @@ def _parameters(elements: int) -> tuple[Parameter, ...]:
 class MaxwellSlip(Model):
     """Maxwell-slip: a spring, and springs that slip, side by side; linear in all stiffnesses.
 
-    F = slope u + sum of k_i E_ri[u], r_i = radius (i / elements)², i = 1 to elements [1, 2]. Rate-independent, and of
-    Masing's rule. With k_i >= 0 it is passive and its loop runs clockwise, force over displacement; with k_i <= 0
-    anticlockwise. The box takes the side on which the records' loops run.
+    F = slope u + sum of k_i E_ri[u], r_i = radius (i / elements)², i = 1 to elements [1, 2]. Rate-independent, and
+    without clearance (below) of Masing's rule. With k_i >= 0 it is passive and its loop runs clockwise, force over
+    displacement; with k_i <= 0 anticlockwise. The box takes the side on which the records' loops run.
 
     elements : how many springs slip, 1 to 40
 

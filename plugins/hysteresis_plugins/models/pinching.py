@@ -5,7 +5,7 @@
     shear walls, exponential ones in place of lines.
 
 Legend: u displacement, F force, x = u / u_y, X the largest displacement of a reversal on the side to which it goes over
-u_y, M that of both sides; where these grow or shrink with M, they do from 1 on.
+u_y, M that of both sides; M^gamma and rho M grow from M = 1 on.
 """
 
 from __future__ import annotations

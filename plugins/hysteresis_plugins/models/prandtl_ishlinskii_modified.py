@@ -100,9 +100,9 @@ class PrandtlIshlinskiiModified(Model):
         return dead_zones(z, p.centre, p.slope, np.concatenate([edges, -edges]), bends)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """Radius and reach at most half the span of the input; the centre in the middle half of its range; slopes up
-        to 50 times the ratio of the spans; the weights on the side of the loops' sense, on both where the data do not
-        say."""
+        """Radius at most half the span of the input, reach a fifth to three fifths of it; the centre in the middle half
+        of its range; slopes up to 50 times the ratio of the spans; the weights on the side of the loops' sense, on both
+        where the data do not say."""
         radius, *weights = self.parameters[: self.plays + 1]
         centre, reach, *slopes = self.parameters[self.plays + 1 :]
         low = min(float(np.min(record.input)) for record in records)

@@ -26,8 +26,8 @@ class OutputCurve(FreeForm):
     """What is measured is a smooth curve of the response.
 
     y = x + d(x), x the response: a static nonlinearity after the hysteresis, as in Wiener models [1]; d is a natural
-    cubic spline [2], linear in its ordinates, and straight beyond the range. It is 0 at two knots beside the
-    middle, because a shift and a gain of the output belong to the law and to its offset.
+    cubic spline [2], linear in its ordinates, and straight beyond the range. It is 0 in the
+    middle, and its two ends are alike, because a shift and a gain of the output belong to the law and to its offset.
 
     [1] F. Giri, E.-W. Bai (eds.), Block-oriented Nonlinear System Identification, Springer (2010).
     [2] C. de Boor, A Practical Guide to Splines, Springer (1978), ch. IV.
