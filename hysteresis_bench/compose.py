@@ -35,6 +35,11 @@ class System:
     fixed: Mapping[str, float] = field(default_factory=dict)
 
     @property
+    def parts(self) -> list[Model | Effect]:
+        """The model, and the effects in their order."""
+        return [part for _, part in self._stack]
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
         """The free parameters with their own default boxes."""
         return self._free([part.parameters for _, part in self._stack])

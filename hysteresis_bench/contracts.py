@@ -53,8 +53,8 @@ return-point : after an inner loop the output is what it was;  congruent : inner
 class Example:
     """With what a model makes data of its own, when effects are hidden in them.
 
-    amplitude : of the drive;  parameters : values by name;  stream : the model's own random numbers, unlike those of
-    every other model, so that another model changes no draw;  without : effects that no data can be made with
+    amplitude : of the drive;  parameters : values by name;  stream : of random numbers, like no other model's
+    without : effects that no data can be made with
     """
 
     amplitude: float
@@ -66,9 +66,8 @@ class Example:
 class Model(ABC):
     """A hysteresis model: input over time to output over time.
 
-    Where a setting says how many parameters there are, such as a number of plays, `__post_init__` sets `parameters` and
-    `linear` of the instance; those of the class are the defaults'. What a law must remember of the fitted range, such
-    as its largest threshold, is a parameter whose box follows from the data, fitted, kept and told like any other.
+    Where a setting says how many parameters there are, `__post_init__` sets `parameters` and `linear` of the instance.
+    What it must remember of the fitted range, such as its largest threshold, is a parameter with a box from the data.
     """
 
     parameters: ClassVar[tuple[Parameter, ...]]
@@ -77,6 +76,7 @@ class Model(ABC):
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({})
     """Effects that act inside the state equation, by name: the model applies them itself. With "eddy-current" around
     the model, `simulate` finds its parameters as p.eddy_current, a namedtuple like p; else p has no such field."""
+    wants: ClassVar[Mapping[str, str]] = MappingProxyType({})  # units of columns that it has constants in
     properties: ClassVar[tuple[Property, ...]] = ()
     """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
     senses: ClassVar[tuple[int, ...]] = (-1, 1)  # of its loops, output over input: 1 anticlockwise, -1 clockwise
@@ -89,7 +89,7 @@ class Model(ABC):
         Never NaN where the parameters lie in the box; never changes its arguments."""
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """The parameters with bounds and scaling that suit the ranges of these records."""
+        """The parameters with bounds and scaling that suit these records."""
         return self.parameters
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
@@ -130,12 +130,12 @@ class Effect(ABC):
     parameters: ClassVar[tuple[Parameter, ...]]
     acts: ClassVar[Acts]
     family: ClassVar[Family]
+    wants: ClassVar[Mapping[str, str]] = MappingProxyType({})  # as of a model
     nuisance: ClassVar[bool] = False
     """True: it is estimated and never claimed. It stands outside all others that act where it does."""
     mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Other effects by name, and why data may not tell them from it, as a sentence ends. One of the two may say so."""
-    affine: ClassVar[bool] = False
-    """Whether the output is an affine function of what is wrapped: the parameters in which that is affine stay so."""
+    affine: ClassVar[bool] = False  # is the output affine in what is wrapped? then so it is in its affine parameters
     relaxes: ClassVar[bool] = False
     """Whether of a step the output rises steadily to the whole step, as of a mixture of relaxations."""
     linear: ClassVar[tuple[str, ...]] = ()

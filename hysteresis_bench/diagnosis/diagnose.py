@@ -32,7 +32,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     promising ones, and the pair of law and effects is taken that predicts best what it did not see (`_preferred`).
     Raises UserError telling every fault at once.
     """
-    dataset = without_faults(dataset)
+    dataset = question.in_wanted_units(without_faults(dataset))
     if question.model:
         return concluded(searched(dataset, question), of_few_parameters(registry.names("models")))
     if question.settings or question.bounds or question.fixed:

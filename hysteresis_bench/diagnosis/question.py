@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -11,7 +12,8 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.fit.checks.asked import asked_faults, parameter_faults
+from hysteresis_bench.fit.checks.asked import around_faults, asked_faults, parameter_faults
+from hysteresis_bench.fit.checks.wanted_units import in_wanted_units
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
 from hysteresis_bench.progress import Kept, OnStep, quiet
@@ -75,6 +77,19 @@ class Question:
         """Raises ValueError where there is no such model, or not with these settings."""
         model: Model = registry.build("models", self.model, self.settings)
         return model
+
+    def in_wanted_units(self, dataset: Dataset) -> Dataset:
+        """The records in the units that the model, the effects around it, and those in question want.
+
+        What is only in question is left to tell that it does not apply. Raises UserError."""
+        if asked_faults(self.model, self.settings, self.effects) if self.model else around_faults("", self.effects):
+            return dataset  # `check` tells them
+        for name in registry.names("effects"):
+            if name not in self.effects and not registry.load("effects", name).fault:
+                with suppress(UserError):
+                    dataset = in_wanted_units(dataset, [registry.effect(name)], f"{name}'s")
+        around = [registry.effect(name) for name in self.effects]
+        return in_wanted_units(dataset, [self.built, *around] if self.model else around, "the model's")
 
     def check(self, dataset: Dataset) -> None:
         """Raises UserError telling every fault of the question and of the records at once; dataset : as measured."""

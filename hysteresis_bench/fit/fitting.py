@@ -24,6 +24,7 @@ from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
 from hysteresis_bench.fit.checks.faulty_records import without_faults
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
+from hysteresis_bench.fit.checks.wanted_units import in_wanted_units
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
 from hysteresis_bench.fit.least_squares import not_overlooked, polish
 from hysteresis_bench.fit.loss import LOSSES
@@ -143,6 +144,7 @@ def fit_records(
     """
     dataset, settings = without_faults(dataset, effects), settings or {}
     system = _system(model, settings, effects, fixed or {}, options)
+    dataset = in_wanted_units(dataset, system.parts, "the model's")
     preparation = Preparation(options.input_offset, options.flip, options.skip)
     if faults := preparation.faults(dataset.records):
         raise UserError("fit", faults)

@@ -16,6 +16,7 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.search.selection import BETTER, Selection
 from hysteresis_bench.fit.checks.behaviour import broken_promises
+from hysteresis_bench.fit.checks.wanted_units import unlike_wanted
 from hysteresis_bench.signals import Record
 
 OFFSET = frozenset({registry.RECORD_OFFSET})
@@ -61,7 +62,7 @@ class OtherLaws:
         fitter = self._fitter(law, self.few)
         system = fitter.stack.system(OFFSET)
         enough = sum(record.measured.size for record in self.few) > 2 * len(system.parameters)
-        if not enough or broken_promises(system, self.few):
+        if not enough or unlike_wanted(system.model, self.few) or broken_promises(system, self.few):
             return Contender(law, (), np.empty(0))
         names = self._possible(fitter)
         return Contender(law, tuple(names), self._fitted(fitter, names).residuals)

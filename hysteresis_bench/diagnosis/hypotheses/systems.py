@@ -12,6 +12,7 @@ from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Acts, Effect, Family, Model
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.redundant import is_redundant
+from hysteresis_bench.fit.checks.wanted_units import unlike_wanted
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.rough import Rough, solvable
@@ -103,7 +104,9 @@ class Stack:
                 impossible[name] = f"broken: {fault}"
             elif self.effect(name).nuisance or isinstance(self.effect(name), FreeForm):
                 continue
-            elif reason := self.effect(name).inapplicable(self.records):
+            elif reason := unlike_wanted(self.effect(name), self.records) or self.effect(name).inapplicable(
+                self.records
+            ):
                 impossible[name] = reason
             elif not self._solvable(name):
                 impossible[name] = "behind it the output is not linear in the law's many weights, which are solved for"
@@ -119,6 +122,7 @@ class Stack:
         """Names of the free forms that can be tried."""
         known = [name for name in sorted(registry.names("effects")) if not registry.load("effects", name).fault]
         known = [name for name in known if isinstance(self.effect(name), FreeForm) and name not in self.own]
+        known = [name for name in known if not unlike_wanted(self.effect(name), self.records)]
         return tuple(n for n in known if not self.effect(n).inapplicable(self.records) and self._solvable(n))
 
     def _solvable(self, name: str) -> bool:

@@ -20,7 +20,7 @@ from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_errors, polynomial
 from hysteresis_bench.diagnosis.laws.choice import TIED, choose, ranking
-from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
+from hysteresis_bench.diagnosis.laws.exclusion import excluded, unlike_in_unit, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing
 from hysteresis_bench.diagnosis.laws.surroundings import changes, curves
@@ -88,7 +88,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     effects_follow : effects will be sought around the laws, and a part is held out where none is.
     Raises UserError telling every fault at once.
     """
-    options, ready = question.options, _prepared(dataset, question)
+    options, ready = question.options, _prepared(question.in_wanted_units(dataset), question)
     settles = settled_periods(ready.fitted, options.settle)
     passing = Passing(ready, settles, effects_follow, tuple(question.effects), options.seed)
     thin, seen = passing.begun, passing.begun.dataset
@@ -102,6 +102,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         # branches of the data's own, judged on what they were not fitted to, do about as well as the best law
         reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else REACHABLE)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
+    reasons |= unlike_in_unit(names, thin.records)
     jobs = options.jobs or min(4, os.cpu_count() or 1)
     with Workers[Law](passing, jobs, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])

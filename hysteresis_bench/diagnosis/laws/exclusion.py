@@ -17,6 +17,8 @@ from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model, Property
 from hysteresis_bench.diagnosis.structure.finding import Finding, Name
 from hysteresis_bench.diagnosis.structure.structure import Structure
+from hysteresis_bench.fit.checks.wanted_units import unlike_wanted
+from hysteresis_bench.signals import Record
 
 ASKS: Mapping[Name, Property] = {
     "odd symmetry": "odd",
@@ -49,6 +51,12 @@ def excluded(names: Sequence[str], structure: Structure, reachable: float, *, al
         if reason := next((one for one in reasons if one), ""):
             found[name] = f"excluded: {reason}"
     return found
+
+
+def unlike_in_unit(names: Sequence[str], records: Sequence[Record]) -> dict[str, str]:
+    """Why laws with constants of their own cannot take these records, by name."""
+    reasons = {name: unlike_wanted(registry.build("models", name, {}), records) for name in names}
+    return {name: f"excluded: {reason}" for name, reason in reasons.items() if reason}
 
 
 def why_not(name: str, structure: Structure, rmse: float) -> str:

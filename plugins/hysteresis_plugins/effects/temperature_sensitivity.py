@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, ClassVar
 
 import numpy as np
@@ -42,8 +43,8 @@ class TemperatureSensitivity(Effect):
     y = x (1 + gain (T - T_ref)) + expansion (T - T_ref), x the response: the two temperature coefficients of
     a transducer's data sheet [1]. Both are 0 where there is no sensitivity.
 
-    `reference` is T_ref, the same for all records, in the column's own unit: 20 degC, so a column in kelvin
-    wants 293.15. Another reference is the same law with other values of the model's gain and offset.
+    `reference` is T_ref, the same for all records, in degC, into which the column is converted. Another reference is
+    the same law with other values of the model's gain and offset.
 
     [1] IEC 61298-3:2008, Process measurement and control devices, tests for the effects of influence
     quantities, ambient temperature.
@@ -51,6 +52,7 @@ class TemperatureSensitivity(Effect):
 
     acts = "output"
     family = "change with time, path or temperature"
+    wants = MappingProxyType({"temperature": "degC"})
     affine = True
     hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_scaled, _steeper)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_arrhenius, _parabolic)

@@ -100,6 +100,7 @@ class FreeEnergyGma(Model):
         Parameter("alpha", 1e-10, 1e-7, "m^2/A^2", "log", meaning="scale of the densities"),
     )
     offers: ClassVar[Mapping[str, Effect]] = MappingProxyType({"eddy-current": RodEddyCurrent()})
+    wants = MappingProxyType({"time": "s", "input": "A", "output": "um", "bias_field": "A/m"})
 
     turns: float = 14400.0
     area: float = 7.85e-5

@@ -35,9 +35,9 @@ class Hammerstein(Model):
 
     parameters = (
         *BoucWen.parameters,
-        Parameter("b", 1e4, 1e6, unit="1/s^2", scaling="log", meaning="gain of the linear stage"),
-        Parameter("c_over_m", 10.0, 1e4, unit="1/s", scaling="log", meaning="damping over mass"),
-        Parameter("k_over_m", 1e4, 1e6, unit="1/s^2", scaling="log", meaning="stiffness over mass"),
+        Parameter("b", 1e4, 1e6, unit="1/{time}^2", scaling="log", meaning="gain of the linear stage"),
+        Parameter("c_over_m", 10.0, 1e4, unit="1/{time}", scaling="log", meaning="damping over mass"),
+        Parameter("k_over_m", 1e4, 1e6, unit="1/{time}^2", scaling="log", meaning="stiffness over mass"),
     )
 
     linear = ("b",)

@@ -35,12 +35,13 @@ class ResponseWithTemperature(FreeForm):
 
     acts = "output"
     family = "change with time, path or temperature"
+    wants = TemperatureSensitivity.wants
     affine = True
     linear = tuple(one.name for one in ZEROS)
     ranges = ("lowest", "highest")
     parameters: ClassVar[tuple[Parameter, ...]] = (
-        Parameter("lowest", 0.0, 20.0, "K", meaning="temperature of the first knot"),
-        Parameter("highest", 25.0, 100.0, "K", meaning="temperature of the last knot"),
+        Parameter("lowest", 0.0, 20.0, "degC", meaning="temperature of the first knot"),
+        Parameter("highest", 25.0, 100.0, "degC", meaning="temperature of the last knot"),
         *GAINS,
         *ZEROS,
     )
@@ -70,4 +71,4 @@ class ResponseWithTemperature(FreeForm):
 
     def curve(self, p: Any) -> Curve:
         temperature = np.linspace(p.lowest, p.highest, POINTS)
-        return Curve(temperature, 1.0 + GAIN.drawn(temperature, p.lowest, p.highest, p), "temperature", "gain", "K")
+        return Curve(temperature, 1.0 + GAIN.drawn(temperature, p.lowest, p.highest, p), "temperature", "gain", "degC")
