@@ -62,6 +62,8 @@ class Parameter:
         """Why the parameter cannot have this value, or an empty string. It may lie outside the box."""
         if not np.isfinite(value):
             return f"{self.name} = {value} must be finite."
+        if self.null == 0.0 and self.scaling == "log" and value < 0.0:  # such as a time constant
+            return f"{self.name} = {value:g} must be at least 0."
         return f"{self.name} = {value:g} must be above 0." if self.positive and value <= 0 else ""
 
 

@@ -143,7 +143,7 @@ def fit_records(
     Raises UserError telling what is wrong with the names, the data, the box or the parameters.
     """
     dataset, settings = without_faults(dataset, effects), settings or {}
-    system = _system(model, settings, effects, fixed or {}, options)
+    system = _system(model, settings, effects, {"fixed": fixed or {}, "bounds": bounds or {}}, options)
     dataset = in_wanted_units(dataset, system.parts, "the model's")
     preparation = Preparation(options.input_offset, options.flip, options.skip)
     if faults := preparation.faults(dataset.records):
@@ -187,19 +187,21 @@ def fit_records(
 
 
 def _system(
-    model: str, settings: Mapping[str, Any], effects: Sequence[str], fixed: Mapping[str, float], options: FitOptions
+    model: str, settings: Mapping[str, Any], effects: Sequence[str], asked: Mapping[str, Any], options: FitOptions
 ) -> System:
+    """asked : fixed values, and bounds, by parameter's name"""
     faults = asked_faults(model, settings, effects)
-    faults += registry.faults("optimizers", options.optimizer, options.optimizer_settings)
-    if faults:
+    if faults := faults + registry.faults("optimizers", options.optimizer, options.optimizer_settings):
         raise UserError("fit", faults)
     built = registry.build("models", model, settings)
     system = System(built, registry.build_effects(built, effects))
     names = [parameter.name for parameter in system.parameters]
-    unknown = [f'fixed: no parameter "{name}". {nearest(name, names)}' for name in fixed if name not in names]
-    known = replace(system, fixed=fixed)
-    if unknown or known.refusals():
-        raise UserError("fit", unknown + [f"fixed {reason}" for reason in known.refusals()])
+    every = [(what, name) for what, values in asked.items() for name in values]
+    faults += [f'{what}: no parameter "{name}". {nearest(name, names)}' for what, name in every if name not in names]
+    faults += [f"{name} is fixed and has bounds; give one of both." for name in {*asked["fixed"]} & {*asked["bounds"]}]
+    known = replace(system, fixed=asked["fixed"])
+    if faults := faults + [f"fixed {reason}" for reason in known.refusals()]:
+        raise UserError("fit", faults)
     if not known.parameters:
         raise UserError("fit", "every parameter is fixed; leave one free to be found.")
     return known
@@ -220,9 +222,7 @@ def _check(system: System, dataset: Dataset, settle: bool) -> None:
 
 def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple[float, float]]) -> Space:
     boxes = system.box(records)
-    names = [parameter.name for parameter in boxes]
-    faults = [f'bounds: no parameter "{name}". {nearest(name, names)}' for name in bounds if name not in names]
-    parameters: list[Parameter] = []
+    faults, parameters = list[str](), list[Parameter]()
     for parameter in boxes:
         lower, upper = bounds.get(parameter.name, (parameter.lower, parameter.upper))
         parameters.append(parameter.within(lower, upper, "linear" if lower <= 0 else parameter.scaling))

@@ -21,7 +21,7 @@ from hysteresis_bench.errors import UserError, nearest
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation
+from hysteresis_bench.fit.preparation import AS_IT_IS, Preparation, preparation_of
 from hysteresis_bench.fit.unseen.aliases import alias_told, steps
 from hysteresis_bench.fit.unseen.between_samples import few_told
 from hysteresis_bench.fit.unseen.excited import excited, ranges
@@ -84,10 +84,15 @@ class FittedModel:
         Raises UserError where units do not convert, or where the response is not finite.
         """
         system, values, known = self.system, self.values[:, None], self.in_own_units(dataset)
+        if faults := self.preparation.faults(known.records):
+            raise UserError("predict", faults)
 
         def predicted(record: Record) -> Record:
             ready = self.preparation(record)
-            output = system.respond(ready, values)[-record.time.size :, 0]
+            try:
+                output = system.respond(ready, values)[-record.time.size :, 0]
+            except ValueError as error:  # such as a column that is not there
+                raise UserError(record.name, f"{error}.") from None
             if not np.all(np.isfinite(output)):
                 raise UserError(record.name, "the model's response to this record is not finite.")
             skipped = self.preparation.skipped(record).history
@@ -95,13 +100,13 @@ class FittedModel:
             units = {**record.units, **dict.fromkeys(("output", *around), self.units["output"])}
             return replace(record, output=output, history=skipped, units=units, columns={**record.columns, **around})
 
-        left = self.error.get("fitted", {}).get("rmse", np.inf)
+        ready, left = known.map(predicted), self.error.get("fitted", {}).get("rmse", np.inf)
         few = [few_told(system, self.preparation(record), values[:, 0], left) for record in known.records]
         few += [alias_told(system, self.data.get("steps"), record) for record in known.records]
         notes = [*known.notes, *self.preparation.words(known.records, self.units["time"]), *filter(None, few)]
         if self.schema < SCHEMA:
             notes.append(f"The model file is of schema {self.schema}, which does not tell whether loops were settled.")
-        return replace(known.map(predicted), notes=tuple(notes))
+        return replace(ready, notes=tuple(notes))
 
     def errors(self, dataset: Dataset) -> dict[str, Accuracy]:
         """How well each measured record is predicted, prepared as for the fit; records without output are left out."""
@@ -257,8 +262,6 @@ def _fitted(content: Mapping[str, Any]) -> FittedModel:
     if len(set(names)) < len(names):
         raise ValueError("an effect stands there twice; it can act once.")
     prepared, units = value_of(content, "preparation", dict), value_of(content, "units", dict)
-    if unheard_of := prepared.keys() - asdict(AS_IT_IS):
-        raise TypeError(f"preparation: {', '.join(unheard_of)}")
     groups = [("", content), *((f"{name}.", effect) for name, effect in zip(names, effects, strict=True))]
     return FittedModel(
         value_of(content, "model", str),
@@ -267,18 +270,12 @@ def _fitted(content: Mapping[str, Any]) -> FittedModel:
         {name: value_of(effect, "settings", dict) for name, effect in zip(names, effects, strict=True)},
         {name: value_of(units, name, str) for name in units},
         {
-            f"{prefix}{name}": _estimate(one)
+            f"{prefix}{name}": _estimate(one, f"{prefix}{name}")
             for prefix, group in groups
             for name, one in value_of(group, "parameters", dict).items()
         },
         {name: number_of(content["fixed"], name) for name in value_of(content, "fixed", dict)},
-        Preparation(
-            number_of(prepared, "input_offset"),
-            value_of(prepared, "flip", bool),
-            number_of(prepared, "skip"),
-            value_of(prepared, "settle", int),
-            value_of({"steps": 1, **prepared}, "steps", int),
-        ),
+        preparation_of({"steps": 1, **prepared}),
         value_of(content, "data", dict),
         value_of(content, "error", dict),
         value_of(content, "created_by", dict),
@@ -295,6 +292,9 @@ def _upgraded(content: Mapping[str, Any]) -> dict[str, Any]:
     return {**absent, **content, "effects": effects, "preparation": prepared}
 
 
-def _estimate(content: Any) -> Estimate:
-    error = None if content["standard_error"] is None else number_of(content, "standard_error")
-    return Estimate(number_of(content, "value"), error, value_of(content, "unit", str))
+def _estimate(content: Any, name: str) -> Estimate:
+    try:
+        error = None if content["standard_error"] is None else number_of(content, "standard_error")
+        return Estimate(number_of(content, "value"), error, value_of(content, "unit", str))
+    except (KeyError, TypeError) as lacking:
+        raise ValueError(f'parameter "{name}": of value, standard_error, unit {lacking} is missing or wrong.') from None

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import TypeVar
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any, TypeVar
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.units import seconds_in
+from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.settling import MOST_REPEATS, is_closed, passed
 from hysteresis_bench.signals import INDEX, Record
 
@@ -40,9 +41,14 @@ class Preparation:
 
     def __post_init__(self) -> None:
         """Raises ValueError for what cannot be done to a record."""
-        repeated = 0 <= self.settle <= MOST_REPEATS and 1 <= self.steps <= MOST_STEPS
-        if not (np.isfinite(self.input_offset) and 0.0 <= self.skip < np.inf and repeated):
-            raise ValueError(f"no record can be prepared by {self}.")
+        limits = {
+            f"input_offset = {self.input_offset:g} must be finite": np.isfinite(self.input_offset),
+            f"skip = {self.skip:g} must be finite and at least 0": 0.0 <= self.skip < np.inf,
+            f"settle = {self.settle} must lie from 0 to {MOST_REPEATS}": 0 <= self.settle <= MOST_REPEATS,
+            f"steps = {self.steps} must lie from 1 to {MOST_STEPS}": 1 <= self.steps <= MOST_STEPS,
+        }
+        if wrong := [limit for limit, kept in limits.items() if not kept]:
+            raise ValueError(f"preparation: {'; '.join(wrong)}.")
 
     def __call__(self, record: Record) -> Record:
         """The record as the model sees it; one that is no closed loop is passed once."""
@@ -63,8 +69,15 @@ class Preparation:
         return (-seen if self.flip else seen) + self.input_offset
 
     def faults(self, records: Sequence[Record]) -> list[str]:
-        """A sentence on every record of one sample, or of which skipping leaves nothing to score."""
-        return [
+        """A sentence on every record of one sample, of which skipping leaves nothing to score, or of whose input an
+        offset leaves nothing: a movement that is too small beside it is rounded away."""
+        still = [
+            record.name for record in records if np.ptp(record.input) and not np.ptp(self.seen_input(record.input))
+        ]
+        lost = [
+            f"record {name}: beside an input offset of {self.input_offset:g} its input is constant." for name in still
+        ]
+        return lost + [
             f"record {record.name}: one sample is no signal; leave the record out."
             if record.time.size < 2
             else f"record {record.name}: skipping {self.skip:g} s leaves nothing of it: it lasts "
@@ -99,3 +112,12 @@ class Preparation:
 
 
 AS_IT_IS = Preparation()
+
+
+def preparation_of(content: Mapping[str, Any]) -> Preparation:
+    """From model.json. Raises KeyError, TypeError or ValueError where it is wrong."""
+    if unheard_of := content.keys() - {one.name for one in fields(Preparation)}:
+        raise TypeError(f"preparation: {', '.join(unheard_of)}")
+    offset, skip = number_of(content, "input_offset"), number_of(content, "skip")
+    settle, steps = value_of(content, "settle", int), value_of(content, "steps", int)
+    return Preparation(offset, value_of(content, "flip", bool), skip, settle, steps)

@@ -44,7 +44,7 @@ def _fault(system: System, record: Record, values: Array) -> str:
     expected = (record.signal.time.size, values.shape[1])
     if not isinstance(simulated, np.ndarray) or simulated.shape != expected:
         return f"{_named(system)} must answer an array (samples, swarm) = {expected}, not {np.shape(simulated)}."
-    if not np.array_equal(given, values):
+    if not np.array_equal(given, values, equal_nan=True):
         return f"{_named(system)} writes into the parameters that it is given."
     if not np.isfinite(simulated).any():
         return f"{_named(system)} answers no finite number at any of {len(PLACES)} points of its box."

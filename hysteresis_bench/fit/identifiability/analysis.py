@@ -80,7 +80,7 @@ class Identifiability:
             sentences.append(f"Noise hides how {listed(moved, MOST)} act{'s' if len(moved) == 1 else ' together'}.")
         for i, j in np.argwhere(np.triu(np.abs(np.nan_to_num(self.correlation)), 1) > STRONG):
             sentences.append(f"{self.names[i]} and {self.names[j]} are correlated by {self.correlation[i, j]:.4f}.")
-        return tuple(sentences)
+        return tuple(dict.fromkeys(sentences))  # of two directions of the same parameters one
 
 
 def analyse(problem: Problem, values: Array, correlated: bool = True) -> Identifiability:

@@ -133,6 +133,8 @@ def interval_of(content: Any) -> Interval | None:
     halves = value_of(content, "half_widths", dict)
     slow, fast = value_of(content, "speeds", list)
     widths = {level: number_of(halves, str(level)) for level in LEVELS}
+    if min(widths.values()) < 0.0:
+        raise ValueError("interval: half_widths must not be below 0")
     longest = {key: number_of(content, key) for key in ("duration", "rest") if key in content}
     return Interval(widths, value_of(content, "records", int), (float(slow), float(fast)), **longest)
 

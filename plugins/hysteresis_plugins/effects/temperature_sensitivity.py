@@ -83,7 +83,7 @@ class TemperatureSensitivity(Effect):
     def inapplicable(self, records: Sequence[Record]) -> str:
         lacking = [record.name for record in records if "temperature" not in record.columns]
         if lacking:
-            return f"record {lacking[0]} has no column temperature"
+            return f"record {lacking[0]} has no column temperature with a number in every row"
         temperature = np.concatenate([record.columns["temperature"] for record in records])
         if not np.all(np.isfinite(temperature)):
             return "the temperature is not known at every sample"
