@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from hysteresis_bench.commands.outputs import check_file, check_plot, force_option, plot_option
+from hysteresis_bench.commands.outputs import check_plot, check_table, force_option, plot_option
 from hysteresis_bench.commands.terminal.console import plain_console, say_path
 
 
@@ -21,7 +21,7 @@ def measure(rig: str, experiment: str, out: Path, seed: int, plot: Path | None, 
     """Take data from a virtual RIG (see `list rigs`)."""
     from hysteresis_bench import measure as measure_on_rig
 
-    check_file(out, force=force)
+    check_table(out, force=force)
     check_plot(plot, (out,), force)
     from hysteresis_bench.data.data_files import write_csv
 

@@ -17,6 +17,9 @@ UNFINISHED = "unfinished.jsonl"
 CLOSING = "closing.json"
 """What a study keeps beside the diagnosis at its end."""
 
+TABLES = (".csv", ".txt", ".dat")
+"""What a file of text with commas may be called: by its name a file is read."""
+
 plot_option = click.option(
     "--plot", type=click.Path(path_type=Path, dir_okay=False), help="Draw it for a paper: .pdf, .svg or .png."
 )
@@ -34,6 +37,14 @@ def check_file(out: Path, inputs: Sequence[Path] = (), force: bool = False) -> N
         raise UserError(str(out), "is one of the inputs; choose another name, or --force to replace it.")
     if out.is_file() and not force:
         raise UserError(str(out), "is there already; choose another name, or --force to replace it.")
+
+
+def check_table(out: Path, inputs: Sequence[Path] = (), force: bool = False) -> None:
+    """`check_file` of a CSV. Raises UserError, too, for the name of another kind of file, which nothing would open."""
+    if out.suffix.lower() not in TABLES:
+        such = out.with_suffix(".csv").name
+        raise UserError(str(out), f"what is written is CSV, so give it a name that ends in .csv, such as {such}.")
+    check_file(out, inputs, force)
 
 
 def check_plot(plot: Path | None, inputs: Sequence[Path] = (), force: bool = False) -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.outputs import check_file, check_plot, force_option, plot_option
+from hysteresis_bench.commands.outputs import check_plot, check_table, force_option, plot_option
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
@@ -41,7 +41,7 @@ def predict(
     force: bool,
 ) -> None:
     """Predict the output of DATA ... with a fitted MODEL.json, prepared as for its fit, with an interval beside it."""
-    check_file(out, (model, *data), force)
+    check_table(out, (model, *data), force)
     from hysteresis_bench.data.data_files import read_data, write_csv
     from hysteresis_bench.fit.checks.faulty_records import counted
     from hysteresis_bench.fit.model_file import read_model

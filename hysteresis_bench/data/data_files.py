@@ -21,12 +21,17 @@ from hysteresis_bench.data.readers.files import read_sheets
 from hysteresis_bench.data.readers.samples import HISTORY, Columns, numbers_of
 from hysteresis_bench.data.readers.samples import LARGEST as LARGEST
 from hysteresis_bench.data.readers.sheet import Sheet, together
+from hysteresis_bench.data.time_holes import time_holes, time_holes_told
 from hysteresis_bench.data.units import in_units, is_no_duration
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import INDEX, UNITLESS, Dataset, Record, joined
 
-SHORTEST = 1e-100
-"""Shortest step of time, or range of an input, that can be squared and summed."""
+SHORTEST = 1e-70
+"""Shortest step of time, or range of an input or output, that can be worked with: fourth powers of it, which tests
+take, must not become 0."""
+
+MOVING = ("input", "output")
+"""Columns that must move by enough."""
 
 
 def read_data(
@@ -41,6 +46,9 @@ def read_data(
     layout : what the files do not say themselves
     Raises UserError naming file, row, column.
     """
+    for name in map(str, files):
+        if (shown := name.encode("utf-8", "replace").decode()) != name:  # what is made of it is called after it
+            raise UserError(shown, "the name of the file holds bytes that are no letters; give it another name.")
     read = [(str(file), _records(Path(file), output_needed, layout)) for file in files]
     stated = {
         name: unit
@@ -137,7 +145,7 @@ def _records(path: Path, output_needed: bool, layout: Layout) -> Dataset:
         required.remove("time")
     sheets = _columns(path, required, layout)
     faults: list[str] = []
-    records, rows = [], []
+    records, rows, holes_told = [], [], []
     for columns in sheets:
         if is_no_duration(unit := columns.units.get("time", "s")):
             faults.append(f'column "time" is in {unit}, which is no unit of time; is it the right column?')
@@ -157,22 +165,26 @@ def _records(path: Path, output_needed: bool, layout: Layout) -> Dataset:
             if not faults:
                 measured = (numbers.pop("time"), numbers.pop("input"), numbers.pop("output", None))
                 records.append(Record(*measured, name=name, units=columns.units, columns=numbers, history=history))
-                rows.append(_understood(records[-1], columns))
+                holes = time_holes(records[-1])
+                holes = holes[~columns.behind_gap[where][holes + 1]]  # that gap is told already
+                rows.append(_understood(records[-1], columns, holes.size))
+                if told := time_holes_told(records[-1], holes, columns.lines[where]):
+                    holes_told.append(f"{path}: {told}")
     if faults:
         raise UserError(str(path), faults[:KEEP_FAULTS])
-    notes = tuple(note for columns in sheets for note in columns.notes)
-    return Dataset(tuple(records), notes=notes, understood=tuple(rows))
+    notes = [*(note for columns in sheets for note in columns.notes), *holes_told]
+    return Dataset(tuple(records), notes=tuple(notes), understood=tuple(rows))
 
 
-def _understood(record: Record, columns: Columns) -> Mapping[str, str]:
-    """A row of the table that tells how a record was read."""
+def _understood(record: Record, columns: Columns, holes: int) -> Mapping[str, str]:
+    """A row of the table that tells how a record was read; holes : in its time, which are gaps, too."""
     steps = np.diff(record.time)
     rate = 1.0 / float(np.median(steps)) if steps.size and np.median(steps) > 0 else math.nan
     unit = columns.units.get("time", "s")
     per = {"s": "Hz", "ms": "kHz", "us": "MHz", "µs": "MHz", INDEX: "a sample"}.get(unit, f"1/{unit}")
     span = f"{float(record.time[-1] - record.time[0]):.4g} {unit}" if record.time.size else ""
     first = {"record": record.name, "samples": str(record.time.size), "duration": span, "rate": f"{rate:.4g} {per}"}
-    return {**first, **columns.understood}
+    return {**first, **columns.understood, "gaps": str(int(columns.understood["gaps"]) + holes)}
 
 
 def _label(name: str, units: Mapping[str, str]) -> str:
@@ -184,9 +196,20 @@ def _record_faults(name: str, numbers: Mapping[str, Array], lines: Array, to_fit
     if lines.size < 2:
         return [f"record {name} has {lines.size} sample; at least 2 are needed."]
     faults = time_faults(numbers["time"], lines)
-    if to_fit and np.ptp(numbers["input"]) < SHORTEST:
+    if not to_fit:
+        return faults
+    if not np.ptp(numbers["input"]) > 0.0:
         faults.append(
             f'record {name}, column "input": constant at {numbers["input"][0]:g}; nothing can be identified '
             f"from an input that does not move."
         )
+    faults += [f'record {name}, column "{role}": {small}' for role in MOVING if (small := too_small(numbers[role]))]
     return faults
+
+
+def too_small(values: Array) -> str:
+    """A sentence on values that move by too little to be worked with; empty where they move by more, or not at all."""
+    moved = float(np.ptp(values)) if values.size else 0.0
+    if not 0.0 < moved < SHORTEST:
+        return ""
+    return f"it moves by {moved:.2g} in all, too little to work with, below {SHORTEST:g}; give it in a smaller unit."

@@ -11,12 +11,14 @@ from itertools import pairwise
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.data.data_files import too_small
 from hysteresis_bench.data.hidden_turns import hidden_turns_told
 from hysteresis_bench.data.spikes import spikes_told
 from hysteresis_bench.data.stuck import stuck_told
 from hysteresis_bench.data.units import frequency_in, seconds_in
 from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.inspection.few_samples import few_told
 from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Record
 
@@ -62,6 +64,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
     moving = [record for record in records if record.time.size > 3 and not _constant(record)]
     found = [said for record in records if record.time.size > 3 and (said := _constant(record))]
     found += [said for record in moving for look in looks if (said := look(record))]
+    found += [said] if (said := few_told(records)) else []
     return (*found, *_ahead(records), *_alike(moving))
 
 
@@ -89,6 +92,8 @@ def _constant(record: Record) -> str:
                 f"{record.name}: the {name} is {float(values[0]):.4g} throughout, so that nothing can be identified: "
                 f"is it the right column (--{name}), or was the channel off?"
             )
+        if values is not None and (small := too_small(values)):
+            return f"{record.name}, column {name}: {small}"
     return ""
 
 

@@ -52,7 +52,7 @@ def test_time_as_an_index_switches_rate_effects_off(tmp_path):
         ),
         ("time,input,output\n0,1,2\n\n1,x,3\n", 'row 4, column "input"'),
         ("time,input,output\n0,1,2\n1,2\n", 'row 3, column "output": empty'),
-        ("time,input,output\n0,1,2\n1,2,3,4\n", "Expected 3 fields in line 3, saw 4"),
+        ("time,input,output\n0,1,2\n1,2,3,4\n", "row 3 has 4 cells, where 3 are expected. Take out"),
         ("", "is empty"),
         ("time,input,output\n", "no samples"),
     ],

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from hysteresis_bench.commands.data.options import data_options, say_understood
-from hysteresis_bench.commands.outputs import check_file, check_plot, force_option, plot_option
+from hysteresis_bench.commands.outputs import check_plot, check_table, force_option, plot_option
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console, say_notes, say_path
 
@@ -34,7 +34,7 @@ def check(
     from hysteresis_bench.report.shared.papers import draw_records
 
     if out is not None:
-        check_file(out, data, force)
+        check_table(out, data, force)
     check_plot(plot, data, force)
     dataset = read_data(data, output_needed=False, layout=layout)
     warnings = oddities(dataset.records)

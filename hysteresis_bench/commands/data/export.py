@@ -12,7 +12,7 @@ from hysteresis_bench.commands.terminal.console import plain_console, say_path
 
 @click.command()
 @click.argument("model", type=click.Path(path_type=Path))
-@click.option("--to", "target", required=True, metavar="TARGET", help="python or c.")
+@click.option("--to", "target", required=True, metavar="TARGET", help="python or c, in letters of either case.")
 @click.option("--out", type=click.Path(path_type=Path, dir_okay=False), help="The file; default: MODEL.py or MODEL.c.")
 @force_option
 def export(model: Path, target: str, out: Path | None, force: bool) -> None:
@@ -20,6 +20,7 @@ def export(model: Path, target: str, out: Path | None, force: bool) -> None:
     from hysteresis_bench.export.write import SUFFIXES, exported, write_export
     from hysteresis_bench.fit.model_file import read_model
 
+    target = target.lower()  # the language is called C
     fitted = read_model(model)
     exported(fitted, target)
     path = out or model.with_suffix(SUFFIXES[target])

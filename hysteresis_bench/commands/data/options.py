@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hysteresis_bench.commands.data.finite import finite
+
 if TYPE_CHECKING:
     from rich.console import Console
 
@@ -17,7 +19,9 @@ OPTIONS = (
     click.option("--time", metavar="COLUMN", help="The column of the time: its name, or its position from 1."),
     click.option("--input", metavar="COLUMN", help="The column of the input."),
     click.option("--output", metavar="COLUMN", help="The column of the output."),
-    click.option("--rate", type=float, metavar="HZ", help="Samples a second, where there is no column of time."),
+    click.option(
+        "--rate", type=float, metavar="HZ", help="Samples a second, where there is no column of time, or in its place."
+    ),
     click.option("--delimiter", metavar="MARK", help="Between cells: comma, semicolon, tab, bar or space."),
     click.option("--decimal", metavar="MARK", help="Decimal mark, . or , where the file leaves it open."),
     click.option("--sheet", metavar="NAME", help="The only sheet or variable to read."),
@@ -25,9 +29,15 @@ OPTIONS = (
 NAMES = ("time", "input", "output", "rate", "delimiter", "decimal", "sheet")
 
 PREPARATION = (
-    click.option("--input-offset", type=float, default=0.0, help="Subtracted from the input."),
+    click.option("--input-offset", type=float, callback=finite, default=0.0, help="Subtracted from the input."),
     click.option("--flip", is_flag=True, help="Change the sign of the input."),
-    click.option("--skip", type=click.FloatRange(min=0), default=0.0, help="Seconds at the start that are not scored."),
+    click.option(
+        "--skip",
+        type=click.FloatRange(min=0),
+        callback=finite,
+        default=0.0,
+        help="Seconds at the start that are not scored.",
+    ),
     click.option(
         "--settle/--no-settle",
         default=None,

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.finite import finite
 from hysteresis_bench.commands.terminal.as_json import json_option, say_json
 from hysteresis_bench.commands.terminal.console import plain_console
 from hysteresis_bench.errors import UserError, nearest
@@ -25,13 +26,20 @@ SINGULAR: dict[str, registry.Kind] = {
     "rig": "rigs",
 }
 FAILED = 1
+LONGEST = 1e6
+"""Seconds that a test may take; a timer of the system takes no number of them beyond."""
 
 
 @click.command("check-plugin")
 @click.argument("name")
 @click.option("--kind", type=click.Choice(list(SINGULAR)), help="Where a name is of several kinds.")
 @click.option(
-    "--timeout", type=float, default=120.0, show_default=True, help="Seconds a test, compilation not counted."
+    "--timeout",
+    type=click.FloatRange(min=0, min_open=True, max=LONGEST),
+    callback=finite,
+    default=120.0,
+    show_default=True,
+    help="Seconds a test, compilation not counted.",
 )
 @json_option
 def check_plugin(name: str, kind: str | None, timeout: float, as_json: bool) -> None:

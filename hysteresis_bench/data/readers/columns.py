@@ -23,12 +23,14 @@ class Named:
 
     units : the ones that are stated, by name;  sources : of a role, what its column is called in the file
     notes : what was left out, as clauses
+    replaced : the column of time that a rate is given in place of, and its unit; None where there is none
     """
 
     cells: pd.DataFrame
     units: dict[str, str]
     sources: dict[str, str]
     notes: tuple[str, ...] = ()
+    replaced: tuple[pd.Series, str | None] | None = None
 
 
 def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> Named:
@@ -80,7 +82,12 @@ def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> 
     every = list(plain.values())
     cells = sheet.cells[list(plain)].set_axis(pd.Index(every), axis=1)
     sources = {role: headers[position].strip() or f"column {position + 1}" for role, position in roles.items()}
-    return Named(cells, {plain[n]: unit for n, unit in units.items() if n in plain}, sources, tuple(notes))
+    stated = {plain[n]: unit for n, unit in units.items() if n in plain}
+    place = _position("time", None, names, headers) if layout.rate is not None else None
+    replaced = (
+        (sheet.cells[place], units.get(place)) if place is not None and place < width and place not in back else None
+    )
+    return Named(cells, stated, sources, tuple(notes), replaced)
 
 
 def _doubled(name: str, plain: Mapping[int, str]) -> str:
@@ -131,5 +138,7 @@ def _missing(role: str, asked: str | None, names: Sequence[str], headed: bool, w
             f"Give its position with --{role} 1 to {len(names)}" + (", or --rate HZ." if role == "time" else ".")
         )
     helps = f" Say which it is with --{role} NAME." if role in ROLES else ""
+    if asked is not None and asked.strip().lstrip("-").isdigit():
+        helps = f" A position is a number from 1 to {len(names)}."
     rate = " Where there is no time, give --rate HZ." if role == "time" else ""
     return f'no column "{asked or role}". {known}{helps}{rate}'

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import stat
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from importlib import import_module
 from pathlib import Path
@@ -28,6 +28,8 @@ OLD = {
     ".pdf": "save what its tables were made from as CSV",
 }
 DATA = (".csv", ".txt", ".tsv", ".dat", ".xlsx", ".mat", ".npz", ".npy", ".h5", ".hdf5")
+NUMPYS = (b"\x93NUMPY", b"PK\x03\x04", b"PK\x05\x06")
+"""What files of NumPy begin with: an array, an archive of arrays, an empty one."""
 REFUSED = "Object arrays cannot be loaded"
 """How numpy says that an array holds no numbers."""
 MATLABS_OWN, DEEPEST = ("#refs#", "#subsystem#"), 8
@@ -57,10 +59,16 @@ def read_sheets(path: Path, layout: Layout) -> list[Sheet]:
         known = [sheet.name for sheet in sheets]
         sheets = [sheet for sheet in sheets if sheet.name == layout.sheet]
         if not sheets:
-            raise UserError(str(path), f'no sheet or variable "{layout.sheet}". {nearest(layout.sheet, known)}')
+            raise UserError(str(path), _no_sheet(layout.sheet, [name for name in known if name]))
     if not sheets:
         raise UserError(str(path), "holds no columns of numbers.")
     return sheets
+
+
+def _no_sheet(asked: str, known: Sequence[str]) -> str:
+    if not known:
+        return f'no sheet or variable "{asked}": this file has none to choose from. Leave --sheet out.'
+    return f'no sheet or variable "{asked}". {nearest(asked, known)}'
 
 
 def _files(folder: Path) -> list[str]:
@@ -124,11 +132,18 @@ def _spreadsheet(path: Path, layout: Layout) -> list[Sheet]:
             raise UserError(str(path), f"{title}, {error}") from None
         header = () if top.header is None else tuple(rows[filled[top.header]])
         units = () if top.units is None else units_in(rows[filled[top.units]])
-        found.append(Sheet(title if len(pages) > 1 else "", header, units, cells, decimal))
+        named = len(pages) > 1 or layout.sheet is not None  # of a lone one nobody needs the name
+        found.append(Sheet(title if named else "", header, units, cells, decimal))
     return found
 
 
 def _numpy(path: Path) -> Mapping[str, Any]:
+    with path.open("rb") as file:
+        if not file.read(max(map(len, NUMPYS))).startswith(NUMPYS):
+            told = (
+                "is no file of NumPy's arrays, whatever its name says: it begins otherwise. Where it is text, name it"
+            )
+            raise UserError(str(path), f"{told} .csv.")
     try:
         stored = np.load(path, allow_pickle=False)
         if isinstance(stored, np.ndarray):
@@ -137,7 +152,8 @@ def _numpy(path: Path) -> Mapping[str, Any]:
     except OSError:
         raise
     except Exception as error:  # a damaged archive raises errors of any type
-        told = str(error) if REFUSED not in str(error) else "it holds objects. Save plain arrays of numbers"
+        reason = (str(error).splitlines() or ["it is damaged"])[0].rstrip(".")
+        told = reason if REFUSED not in str(error) else "it holds objects. Save plain arrays of numbers"
         raise UserError(str(path), f"cannot be read as arrays: {told}.") from None
 
 

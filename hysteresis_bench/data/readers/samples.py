@@ -22,13 +22,15 @@ from hysteresis_bench.data.readers.numbers import (
     number,
     seconds,
 )
+from hysteresis_bench.data.readers.replaced_time import another_rate
 from hysteresis_bench.data.readers.sheet import Sheet
 from hysteresis_bench.errors import UserError
 
 HISTORY = "history"
 """A column of 1 for leading samples that are not scored, 0 for the others."""
-LARGEST = 1e100
-"""Largest number that can be squared and summed."""
+LARGEST = 1e70
+"""Largest number that can be worked with: tests take fourth powers of it, and sums of them over up to 1e14 pairs of
+samples, which must stay below 1.8e308."""
 GAPS = 0.2
 """Share of rows without a number that are gaps; more of them are a fault of the file."""
 FEW = 5
@@ -45,6 +47,7 @@ class Columns:
 
     lines : (samples,) where each sample stands in the file;  units : the ones that the header states
     sheet : its name, empty where a file has but one;  understood : what was read, by the heading of a table
+    behind_gap : (samples,) whether rows without a number were left out just before it
     notes : what was left out, a sentence each
     """
 
@@ -52,6 +55,7 @@ class Columns:
     numbers: Mapping[str, Array]
     units: Mapping[str, str]
     runs: Sequence[str] | None
+    behind_gap: Array
     sheet: str = ""
     understood: Mapping[str, str] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
@@ -78,11 +82,13 @@ def numbers_of(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]
             notes.append("times of day as seconds after the first")
     if layout.rate is not None:
         numbers["time"], units["time"] = np.arange(len(cells)) / layout.rate, "s"
+        if found.replaced and (other := another_rate(*found.replaced, sheet.decimal, layout.rate)):
+            notes.append(other)
     kept = ~np.any([empty[name] for name in empty] or [np.zeros(len(cells), dtype=bool)], axis=0)
+    runs = _runs(cells["run"][kept], faults) if "run" in cells else None
     if faults:
         raise UserError(where, faults[:KEEP_FAULTS])
     lines = cells.index.to_numpy()
-    runs = [unguarded(run) for run in cells["run"][kept].map(str)] if "run" in cells else None
     if runs is None and "time" in numbers and (runs := _blocks(numbers["time"][kept], lines[kept])):
         notes.append("parted by empty lines into records")
     clauses = (*sheet.notes, *found.notes, *notes)
@@ -95,6 +101,7 @@ def numbers_of(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]
         {name: values[kept] for name, values in numbers.items()},
         units,
         runs,
+        np.diff(np.flatnonzero(kept), prepend=-1) > 1,
         sheet.name,
         _understood(found, units, layout, gaps),
         tuple(told),
@@ -129,15 +136,19 @@ def _numbers(
             continue
         wrong = np.nonzero(~good & ~missing if needed and few else ~good)[0]
         if wrong.size:
-            faults.append(_fault(cells, name, wrong, decimal))
+            faults.append(_fault(cells, name, wrong, decimal, int(np.count_nonzero(missing))))
     return numbers, empty, faults, [f"left out, because cells are empty: {', '.join(holes)}"] if holes else []
 
 
-def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str) -> str:
+def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str, missing: int) -> str:
+    """The sentence on a column's cells that are no numbers.
+
+    bad : rising indices of these cells;  missing : how many cells of the column say that there is no number
+    """
     cells = table[name]
     text, value = str(cells.iloc[bad[0]]).strip(), number(cells.iloc[bad[0]], decimal)
     shown = f'"{text[:40]}"' if text else "empty"
-    too_large = math.isfinite(value)
+    too_large = math.isfinite(value) or (math.isinf(value) and any(letter.isdigit() for letter in text))
     why = "is not a finite number"
     if too_large:
         why = f"is too large to work with, beyond {LARGEST:g}"
@@ -147,6 +158,12 @@ def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str) -> str:
     helps = ""
     if bad.size == len(cells) and not text:
         helps = " The column is empty; where a spreadsheet's formulas have no values yet, open it there and save it."
+    elif GAPS * len(cells) < missing < len(cells) and is_missing(cells.iloc[bad[0]]):
+        other = f", or give another column with --{name} NAME" if name in ROLES else ""
+        helps = (
+            f" {missing} of {len(cells)} cells hold no number; up to a fifth of them may, and are left out as gaps. "
+            f"Take the rows without a reading out of the file{other}."
+        )
     elif not too_large and decimal == "." and math.isfinite(number(text, ",")):
         helps = " Is it a decimal comma? Say so with --decimal ,"
     elif not too_large and decimal == "," and math.isfinite(number(text, ".")):
@@ -162,7 +179,24 @@ def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str) -> str:
         helps = " Give --rate HZ in place of the time."
     elif bad.size <= GAPS * len(cells):
         helps = " Empty the cell where there was no reading, and its sample is left out."
+    elif too_large and abs(value) != OVERFLOW:
+        helps = " Give the column in a larger unit."
     return f'row {cells.index[bad[0]]}, column "{name}": {shown} {why}{more}.{helps}'
+
+
+def _runs(cells: pd.Series, faults: list[str]) -> list[str] | None:
+    """The name of every sample's record; None where none has a name. A fault is added where only some have one."""
+    unnamed = cells.isna() | (cells.map(str).str.strip() == "")
+    if unnamed.all():
+        return None
+    if unnamed.any():
+        rows = [str(row) for row in cells.index[unnamed]]
+        listed = ", ".join(rows[:SHOWN]) + (f" and {len(rows) - SHOWN} more" if len(rows) > SHOWN else "")
+        faults.append(
+            f'column "run": empty in row{"s" if len(rows) > 1 else ""} {listed}, so that nobody knows whose samples '
+            "these are. Name their record there, or take the rows out."
+        )
+    return [unguarded(run) for run in cells.map(str)]
 
 
 def _blocks(time: Array, lines: Array) -> list[str] | None:

@@ -202,16 +202,21 @@ def _table(path: Path, lines: Sequence[str], first: int, comments: set[int], mar
 
 
 def _said(error: Exception, before: int, mark: str) -> str:
-    """What pandas says, its lines counted as in the file."""
+    """What pandas says, in words that need not be known from it, its lines counted as in the file."""
     reason = (str(error).strip().splitlines() or ["it is not text"])[0]
-    reason = re.sub(r"(in line |at row )(\d+)", lambda found: f"{found[1]}{int(found[2]) + before}", reason)
-    found = re.search(r"Expected (\d+) fields .* saw (\d+)", reason)
-    told = f"cannot be read as CSV: {reason}."
-    if found and mark == "," and int(found[2]) == 2 * int(found[1]):
-        told += " If these are decimal commas, put other delimiters between the cells, such as semicolons."
-    elif found:
-        told += " Where the cells are parted by another mark, say so with --delimiter."
-    return told
+    if quote := re.search(r"EOF inside string starting at row (\d+)", reason):
+        return f"cannot be read as CSV: a quote that begins in row {int(quote[1]) + 1 + before} does not end."
+    ragged = re.search(r"Expected (\d+) fields in line (\d+), saw (\d+)", reason)
+    if not ragged:
+        return f"cannot be read as CSV: {reason}."
+    expected, row, seen = (int(text) for text in ragged.groups())
+    told = f"row {row + before} has {seen} cells, where {expected} {'is' if expected == 1 else 'are'} expected."
+    if mark == "," and seen == 2 * expected:
+        return f"{told} If these are decimal commas, put other delimiters between the cells, such as semicolons."
+    if expected == 1:
+        return f"{told} Where the cells are parted by another mark, say so with --delimiter."
+    between = {" ": "a blank", "\t": "a tab"}.get(mark, f'"{mark}"')
+    return f"{told} Take out what is too much; a cell that holds {between} needs quotes about it."
 
 
 def _decimal(path: Path, cells: pd.DataFrame, layout: Layout, *, unquoted: bool) -> str:
