@@ -17,6 +17,8 @@ from hysteresis_bench.commands.terminal.console import open_option, plain_consol
 if TYPE_CHECKING:
     from hysteresis_bench.data.layout import Layout
 
+OUT_HELP = "Folder, where earlier results of this command are replaced; default: NAME-laws."
+
 
 @click.command()
 @click.argument("data", type=click.Path(path_type=Path), nargs=-1, required=True)
@@ -31,7 +33,7 @@ if TYPE_CHECKING:
 @json_option
 @open_option
 @force_option
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-laws.")
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help=OUT_HELP)
 def compare(
     data: Sequence[Path],
     layout: Layout,

@@ -19,7 +19,6 @@ from hysteresis_bench.commands.terminal.console import (
     say_notes,
     say_page,
     say_path,
-    terminal,
 )
 
 if TYPE_CHECKING:
@@ -31,6 +30,7 @@ if TYPE_CHECKING:
     from hysteresis_bench.diagnosis_study.advised import Bench
     from hysteresis_bench.signals import Dataset
 
+OUT_HELP = "Folder, where earlier results of this command are replaced; default: NAME-diagnosis."
 SHOWN = 8
 """Tests and sentences of a kind that still fit a terminal; the files have all."""
 
@@ -47,7 +47,7 @@ SHOWN = 8
 @click.option("--measure", metavar="RIG", help="Carry the advised experiment out on this virtual rig, diagnose again.")
 @click.option("--accept-terms", is_flag=True, help="Add what describes the remaining residual to the model.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Processes; default: all cores, at most 4.")
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-diagnosis.")
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help=OUT_HELP)
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @plot_option
 @json_option
@@ -86,14 +86,17 @@ def diagnose(
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
+    from hysteresis_bench.errors import UserError
     from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
     from hysteresis_bench.report.diagnosis.page import FILE, write_diagnosis_page
 
+    if model and models:
+        raise UserError("diagnose", "--models is where the law is sought, and --model names it; give one of them.")
     folder = out or Path(f"{data[0].stem}-diagnosis")
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     check_plot(plot, data, force)
     bench = _bench(measure, seed, prepared) if measure else None
-    dataset, console = load(*data, held_out=held_out, layout=layout), terminal()
+    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)
@@ -102,7 +105,7 @@ def diagnose(
         check_folder(folder, (f"{bench.record_name(dataset)}.csv",), FILE, data, force)
     options = DiagnosisOptions(seed, None, **prepared, accept_terms=accept_terms, laws=models)
     with journal(folder, (dataset.records, held_out, model, effects, asked, options)) as kept:
-        say_notes(terminal(aside=True), kept.notes)
+        say_notes(plain_console(aside=True), kept.notes)
         with told_when_stopped("diagnose", kept.words), steps_told("diagnose") as on_step:
             options = replace(options, jobs=jobs, on_step=on_step, kept=kept)
             found = find(dataset, model, effects, **asked, options=options)
@@ -168,8 +171,9 @@ def candidates_table(found: Diagnosis) -> Table:
     from rich.table import Column, Table
 
     rows = [row for row in found.candidates if row.applicable]
-    first = Column("effect", min_width=max((len(row.effect) for row in rows), default=0))
-    table = Table(first, "", "sure", "RMSE", "left out", "p", "tied with", box=None, pad_edge=False)
+    first = Column("effect", no_wrap=True, min_width=max((len(row.effect) for row in rows), default=0))
+    last = Column("tied with", overflow="fold")
+    table = Table(first, "", "sure", "RMSE", "left out", "p", last, box=None, pad_edge=False)
     for row in rows:
         mark = "adopted" if row.adopted else "stand-in" if row.stand_in else "at its bound" if row.at_bound else ""
         told = one.probability if (one := found.certainty.get(row.effect)) else None

@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Rig
 from hysteresis_bench.data.data_files import read_data
 from hysteresis_bench.data.layout import AS_THEY_SAY
 from hysteresis_bench.errors import UserError, nearest
+from hysteresis_bench.fit.checks.wanted_units import in_wanted_units
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.preparation import Preparation
@@ -39,6 +40,7 @@ def build_problem(spec: ProblemSpec, seed: int, folder: Path, instance: int = FI
     """folder : where relative data files are looked for. Raises UserError for what the data make impossible."""
     dataset = dataset_of(spec, seed, folder, instance)
     system = build_system(spec.model, spec.settings, effects=spec.effects, fixed=spec.fixed)
+    dataset = in_wanted_units(dataset, system.parts, "the model's")
     faults = inapplicable(system, dataset) + [f"fixed {reason}" for reason in system.refusals()]
     boxes = system.box(dataset.fitted) if spec.box == "data" else system.parameters
     parameters, more = boxed(boxes, spec)
@@ -127,7 +129,7 @@ def _read(spec: ProblemSpec, folder: Path) -> Dataset:
     wanted = [*(spec.fitted or [name for name in dataset.names if name not in spec.held_out]), *spec.held_out]
     unknown = [name for name in wanted if name not in dataset.names]
     if unknown:
-        where = f'problem "{spec.name}"'
-        raise UserError(where, [f'no record "{name}". {nearest(name, dataset.names)}' for name in unknown])
+        where, files = f'problem "{spec.name}"', spec.data[0] if len(spec.data) == 1 else "the data files"
+        raise UserError(where, [f'no record "{name}" in {files}. {nearest(name, dataset.names)}' for name in unknown])
     records = tuple(record for record in dataset.records if record.name in wanted)
     return replace(dataset, records=records).split(spec.held_out)

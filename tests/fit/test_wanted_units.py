@@ -6,12 +6,15 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import FitOptions, compare, fit, measure, registry
+from hysteresis_bench.data.data_files import write_csv
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.laws.exclusion import unlike_in_unit
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.checks.wanted_units import in_wanted_units, unlike_wanted
 from hysteresis_bench.signals import Dataset
+from hysteresis_bench.study.problems import build_problem
+from hysteresis_bench.study.study_file import ProblemSpec
 
 ROD = "free-energy-gma"
 
@@ -110,3 +113,11 @@ def test_a_rate_has_the_unit_of_the_time():
     milliseconds = {"time": "ms", "input": "V", "output": "um"}
     own = {one.name: one.unit_in(milliseconds) for one in registry.build("models", "hammerstein").parameters}
     assert (own["k_over_m"], own["c_over_m"], own["b"]) == ("1/ms^2", "1/ms", "1/ms^2")
+
+
+def test_a_problem_of_a_study_converts_its_files_as_well(rod, tmp_path):
+    write_csv(tmp_path / "rod.csv", rewritten(rod, input=(1e3, "mA")))
+    spec = ProblemSpec(name="rod", data=["rod.csv"], model=ROD)
+    built = build_problem(spec, 0, tmp_path)
+    assert np.allclose(built.problem.records[0].input, rod.records[0].input, rtol=1e-6)
+    assert built.dataset.units["input"] == "A"

@@ -88,7 +88,10 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     effects_follow : effects will be sought around the laws, and a part is held out where none is.
     Raises UserError telling every fault at once.
     """
-    options, ready = question.options, _prepared(question.in_wanted_units(dataset), question)
+    options, ready = (
+        question.options,
+        _prepared(question.in_wanted_units(dataset), question, "diagnose" if effects_follow else "compare"),
+    )
     settles = settled_periods(ready.fitted, options.settle)
     passing = Passing(ready, settles, effects_follow, tuple(question.effects), options.seed)
     thin, seen = passing.begun, passing.begun.dataset
@@ -176,16 +179,16 @@ def _least(laws: Sequence[Law]) -> float:
     return min((law.rmse for law in laws), default=0.0)
 
 
-def _prepared(dataset: Dataset, question: Question) -> Dataset:
-    """As the laws see it."""
+def _prepared(dataset: Dataset, question: Question, purpose: str) -> Dataset:
+    """As the laws see it.  purpose : the command that asks"""
     models, known, settle = question.options.laws, registry.names("models"), question.options.settle
     faults = [f'no model "{name}". {nearest(name, known)}' for name in models if name not in known]
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
     faults += around_faults("", question.effects) + question.preparation.faults(dataset.records)
     faults += open_loops(dataset.records) if settle and not faults else []
     seen = dataset if faults else without_faults(dataset).map(question.preparation)
-    if faults := faults or record_faults(seen.fitted, "compare"):
-        raise UserError("compare", faults)
+    if faults := faults or record_faults(seen.fitted, purpose):
+        raise UserError(purpose, faults)
     return seen
 
 
