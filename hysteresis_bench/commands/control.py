@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from hysteresis_bench.commands.data.finite import finite
 from hysteresis_bench.commands.data.options import reference_options
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
@@ -25,12 +26,20 @@ if TYPE_CHECKING:
     from hysteresis_bench.fit.model_file import FittedModel
     from hysteresis_bench.progress import OnStep
 
-existing_file = click.Path(path_type=Path)
+existing_file, above_0 = click.Path(path_type=Path), click.FloatRange(min=0, min_open=True)
 FEED_FORWARD, TRACKING, SWEEP, SWEPT = "feed-forward.csv", "tracking.svg", "sweep.csv", "sweep.svg"
 FILES = ("control.html", "control.csv", "responses.csv")
 AMPLITUDE_HELP = "Of the references; default: 2. Of a --sweep; default: four shares of the fitted range."
 RATE_HELP = "Samples a second on the rig, default: 10000; or of a --reference that has no column of time."
+OUT_HELP = "Folder, where earlier results of this command are replaced; default: NAME-control."
 SWEEP_HELP = "Expected error of a feed-forward along sines of these frequencies and several amplitudes, by the model."
+
+FOR_FIGURE = "--plot draws what --reference or --sweep makes; give one of them, too."
+FOR_ONE = "--json tells a --reference, a --sweep or a --rig, and one of them alone."
+FOR_LIMIT = "--voltage-limit cuts the input of a --reference; a rig has a limit of its own, and a --sweep has none."
+FOR_AMPLITUDE = "--amplitude is of a --sweep or a --rig; a --reference goes as far as it says itself."
+FOR_RATE = "--rate is of a --rig, or of a --reference that has no column of time; a --sweep needs none."
+FOR_COLUMNS = "--time, --output, --delimiter, --decimal and --sheet say how a --reference is read; give one."
 
 
 def _frequencies(context: click.Context, option: click.Parameter, text: str | None) -> tuple[float, ...]:
@@ -38,7 +47,7 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
         found = tuple(float(part) for part in text.split(",")) if text else ()
     except ValueError:
         found = (0.0,)
-    if not all(0.0 < one < float("inf") for one in found):
+    if not all(one > 0.0 for one in found):
         raise click.BadParameter(f"{text} should read F,F,... such as 1,10,100: frequencies above 0.")
     return found
 
@@ -49,10 +58,10 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option("--reference", type=existing_file, help="CSV with time and the wanted output: make the input for it.")
 @click.option("--sweep", callback=_frequencies, metavar="F,F,...", help=SWEEP_HELP)
 @reference_options
-@click.option("--rate", type=click.FloatRange(min=0, min_open=True), help=RATE_HELP)
-@click.option("--amplitude", type=click.FloatRange(min=0, min_open=True), help=AMPLITUDE_HELP)
-@click.option("--voltage-limit", type=click.FloatRange(min=0, min_open=True), help="Cut the input of --reference here.")
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Folder; default: NAME-control.")
+@click.option("--rate", type=above_0, callback=finite, help=RATE_HELP)
+@click.option("--amplitude", type=above_0, callback=finite, help=AMPLITUDE_HELP)
+@click.option("--voltage-limit", type=above_0, callback=finite, help="Cut the input of --reference here.")
+@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help=OUT_HELP)
 @plot_option
 @click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
 @json_option
@@ -81,6 +90,7 @@ def control(
     from hysteresis_bench import control as control_on_rig
     from hysteresis_bench.control.trajectories.driven import forward_of
     from hysteresis_bench.control.trajectories.trajectory import follow
+    from hysteresis_bench.data.layout import AS_THEY_SAY
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.fit.model_file import read_model
     from hysteresis_bench.progress import Step
@@ -88,17 +98,24 @@ def control(
     from hysteresis_bench.report.fit.folder import MODEL
 
     inputs = [model, *([reference] if reference else [])]
-    if plot is not None and (reference is None) == (not sweep):
-        raise UserError("control", "--plot draws what --reference or --sweep makes; give one of them, too.")
-    check_plot(plot, inputs, force)
-    if as_json and sum(map(bool, (rig, reference, sweep))) > 1:
-        raise UserError("control", "--json tells a --reference, a --sweep or a --rig, and one of them alone.")
-    if rig is None and reference is None and not sweep:
+    if not (rig or reference or sweep):
         raise UserError(
             "control",
             "give --rig NAME to compare controllers, --reference CSV for a feed-forward, or --sweep F,F,... for the "
             "error to expect.",
         )
+    asked = {
+        FOR_FIGURE: (plot is not None, bool(reference) != bool(sweep)),
+        FOR_ONE: (as_json, sum(map(bool, (rig, reference, sweep))) == 1),
+        FOR_LIMIT: (voltage_limit is not None, reference),
+        FOR_AMPLITUDE: (amplitude is not None, rig or sweep),
+        FOR_RATE: (rate is not None, rig or reference),
+        FOR_COLUMNS: (layout != AS_THEY_SAY, reference),
+    }
+    faults = [told for told, (given, heeded) in asked.items() if given and not heeded]
+    if faults:
+        raise UserError("control", faults)
+    check_plot(plot, inputs, force)
     fitted = read_model(model)
     folder = out or Path(f"{model.stem}-control")
     check_folder(folder, FILES, FILES[0], inputs, force)

@@ -19,8 +19,8 @@ from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.progress import OnStep, Step, quiet
 
-FASTEST = 1e6
-"""Samples a second of references that last up to six."""
+SLOWEST, FASTEST = 200.0, 1e6
+"""Samples a second of references that turn up to 50 times a second and last up to six."""
 RATE = 10_000.0  # 1/s
 AMPLITUDE = 2.0  # output unit; ours
 SHOWN = 1000
@@ -77,11 +77,14 @@ def compare(
     name : of the rig
     rate : samples a second;  amplitude : of the references, in the output's unit
     The sensor's noise depends on seed, rig and reference, so that all controllers hear the same.
-    Raises ValueError where units or ranges do not suit, the model has no inverse, its linear section is unstable, or
-    the sampling is too slow.
+    Raises ValueError where rate or amplitude cannot be, units or ranges do not suit, the model has no inverse, its
+    linear section is unstable, or the sampling is too slow.
     """
-    if rate > FASTEST:
-        raise ValueError(f"a rate of {rate:g} is more samples than can be held; choose one up to {FASTEST:g}.")
+    if not SLOWEST <= rate <= FASTEST:
+        told = "more samples than can be held" if rate > FASTEST else "too few samples for the references"
+        raise ValueError(f"a rate of {rate:g} is {told}; choose one from {SLOWEST:g} to {FASTEST:g} samples a second.")
+    if not 0.0 < amplitude < float("inf"):
+        raise ValueError(f"an amplitude of {amplitude:g} cannot be followed; choose a finite one above 0.")
     on_step(Step("tuning"))
     bench = bench_of(fitted, rig, name, rate=rate, amplitude=amplitude)
     scores: list[dict[str, Any]] = []

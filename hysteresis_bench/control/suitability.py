@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from dataclasses import replace
+
 import numpy as np
 
 from hysteresis_bench.contracts import SteppedRig
@@ -11,11 +14,14 @@ from hysteresis_bench.fit.model_file import FittedModel
 
 WORTH_WHILE = 0.25
 """Share of the amplitude that a rig must be able to reach by the model."""
+TIMED = re.compile(r"\{time\}|\bs\b")
+"""In a parameter's unit: the data's unit of time, or seconds whatever the data are in."""
 
 
 def check_units(fitted: FittedModel, forward: Forward, rig: SteppedRig, name: str) -> None:
-    """Raises ValueError where the rig's units are not the model's; a model without units is taken to have the rig's."""
-    compared = ("time", "input", "output") if forward.linear else ("input", "output")
+    """Raises ValueError where the rig's units are not the model's; a model without units is taken to have the rig's.
+    The time counts where the model knows one."""
+    compared = ("time", "input", "output") if forward.linear or _knows_time(fitted) else ("input", "output")
     faults = [
         f"{column} is in {fitted.units[column]} in the model and in {rig.units[column]} on the rig {name}."
         for column in compared
@@ -25,6 +31,12 @@ def check_units(fitted: FittedModel, forward: Forward, rig: SteppedRig, name: st
     ]
     if faults:
         raise ValueError(" ".join([*faults, "Fit the model to data in the rig's units."]))
+
+
+def _knows_time(fitted: FittedModel) -> bool:
+    """Whether a parameter of the model or of an effect, found or fixed, has a unit with a time in it."""
+    parameters = replace(fitted.system, fixed={}).parameters
+    return any(TIMED.search(parameter.unit) for parameter in parameters)
 
 
 def range_words(fitted: FittedModel, forward: Forward, limit: float, amplitude: float) -> list[str]:

@@ -374,7 +374,7 @@ def test_command_makes_an_input_that_follows_a_trajectory(tmp_path, invoke):
         ((), "--rig NAME"),
         (("--rig", "peas"), 'Did you mean "pea"'),
         (("--rig", "sma"), "These can: pea"),
-        (("--rig", "pea", "--rate", "1e9"), "choose one up to 1e+06"),
+        (("--rig", "pea", "--rate", "1e9"), "choose one from 200 to 1e+06"),
     ],
 )
 def test_command_says_what_it_needs(tmp_path, invoke, arguments, words):

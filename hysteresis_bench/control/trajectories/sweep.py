@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from itertools import product
 from typing import Any
 
@@ -11,6 +11,7 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.trajectories.driven import drive, forward_of
+from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.unseen.excited import AMPLITUDE, FREQUENCY, unlike
 from hysteresis_bench.progress import OnStep, Step, quiet
@@ -19,6 +20,10 @@ SHARES = (0.1, 0.25, 0.5, 0.9)
 """Amplitudes in half ranges of the fitted outputs, about their middle."""
 CENTRED = 0.05
 """Share of the half range of the fitted outputs up to which their middle is taken as 0, where a device is at rest."""
+SLOWEST, FASTEST = 1e-9, 1e9
+"""Frequencies that are swept: an actuator turns neither slower nor faster, in whichever unit of time."""
+SMALLEST, LARGEST = 1e-30, 1e30
+"""Amplitudes whose squares and shares are still numbers, in whichever unit."""
 PERIODS, SCORED, SAMPLES = 4, 2, 250
 """Of a sine, of these at the end scored, and samples a period."""
 
@@ -32,8 +37,11 @@ def sweep(
     left : RMS of the model's answer less the sine;  expected : of that and of the model's own error together
     beyond : in what the input differs from the fitted ones, as words such as "faster, larger", or ""
     reason : why no input was found, "" where one was
-    Raises ValueError where no input was found for any, or no amplitude is told and the model keeps no range.
+    Raises UserError telling frequencies and amplitudes that cannot be, ValueError where no input was found for any, or
+    no amplitude is told and the model keeps no range.
     """
+    if faults := [*_impossible(frequencies, amplitudes)]:
+        raise UserError("sweep", faults)
     forward, rmse = forward_of(fitted), _own_error(fitted)
     ranges = fitted.data.get("ranges") or {}
     if not ranges and not amplitudes:
@@ -71,6 +79,17 @@ def sweep(
         raise ValueError(reasons)
     columns = ["amplitude", "frequency", "input", "left", "expected", "beyond", "reason"]
     return pd.DataFrame(rows).reindex(columns=columns)
+
+
+def _impossible(frequencies: Sequence[float], amplitudes: Sequence[float]) -> Iterator[str]:
+    """A sentence on every value that is no number, or beyond what an actuator does."""
+    per = "cycles a unit of the model's time"
+    for one in frequencies:
+        if not SLOWEST <= one <= FASTEST:
+            yield f"a frequency of {one:g} cannot be; choose one from {SLOWEST:g} to {FASTEST:g} {per}."
+    for one in amplitudes:
+        if not SMALLEST <= one <= LARGEST:
+            yield f"an amplitude of {one:g} cannot be; choose one from {SMALLEST:g} to {LARGEST:g}."
 
 
 def _everywhere(rows: Sequence[dict[str, Any]]) -> str:
