@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 
 import click
 
-from hysteresis_bench.commands.terminal.console import plain_console, say_path
+from hysteresis_bench.commands.terminal.console import plain_console
 
 
 @click.command()
@@ -22,4 +23,5 @@ def merge(results: tuple[Path, ...], out: Path) -> None:
     console = plain_console()
     trials = merge_folders(results, out)
     console.print(f"{trials} trials of {len(results)} folders are together. For tables and report:", highlight=False)
-    say_path(console, "hysteresis-bench run STUDY.toml --out", out)
+    follows = f"hysteresis-bench run STUDY.toml --out {shlex.quote(str(out))}"
+    console.print(follows, highlight=False, soft_wrap=True, markup=False)

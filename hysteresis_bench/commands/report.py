@@ -18,7 +18,9 @@ from hysteresis_bench.commands.terminal.console import open_option, plain_consol
 )
 @click.option("--trial", metavar="SEED", help="Run one trial again, by its seed in trials.csv, and write its page.")
 @click.option(
-    "--keep", type=click.Path(path_type=Path, file_okay=False), help="Copy what is small to this folder, and report it."
+    "--keep",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Copy what is small to a folder: a new one, or the same study's.",
 )
 @json_option
 @open_option
@@ -65,14 +67,15 @@ def _page(results: Path, trial: str | None) -> Path:
 def _kept(results: Path, folder: Path) -> Path:
     """The folder that what is small was copied to."""
     from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study
+    from hysteresis_bench.study.afterwards.keep import check_kept, keep_small
     from hysteresis_bench.study.results import STUDY, read_results
 
+    check_kept(results, folder)
     if is_diagnosis_study(results / STUDY):
         from hysteresis_bench.diagnosis_study.results import keep_tables
 
         return keep_tables(results, folder)
     from hysteresis_bench.report.paper.published import check_published
-    from hysteresis_bench.study.afterwards.keep import keep_small
 
     read = read_results(results)
     return keep_small(read, folder, check_published(read.published).optimizers)

@@ -27,7 +27,11 @@ DONE, FAILED_TRIALS = 0, 1
 @click.option("--trials", type=click.IntRange(min=1), help="Trials of every optimizer; default: the study file's.")
 @click.option("--instances", type=click.IntRange(min=1), help="Instances of every rig; default: the study file's.")
 @click.option("--jobs", type=click.IntRange(min=1), help="Worker processes; default: all cores.")
-@click.option("--out", type=click.Path(path_type=Path, file_okay=False), help="Results folder; default: runs/NAME.")
+@click.option(
+    "--out",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Results folder, begun or continued; default: runs/NAME.",
+)
 @click.option("--retry", is_flag=True, help="Do again what was killed from outside, ran out of memory or never began.")
 @click.option("--scheduler", metavar="ADDRESS", help="Run the trials on the workers of this Dask scheduler.")
 @click.option("--shard", metavar="I/N", help="Run the I-th of N parts only; `merge` puts them together.")

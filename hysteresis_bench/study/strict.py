@@ -16,9 +16,9 @@ from hysteresis_bench.errors import UserError, nearest, printable
 
 
 class Strict(BaseModel):
-    """A table of a TOML file: unknown keys are faults, and what was read does not change."""
+    """A table of a TOML file: unknown keys and values of another type are faults, and what was read does not change."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
 Form = TypeVar("Form", bound=Strict)
@@ -38,6 +38,18 @@ def duration(text: Any) -> float:
 
 Seconds = Annotated[float, BeforeValidator(duration), WithJsonSchema({"type": ["number", "string"]})]
 """A time in a TOML file, such as "10 min"."""
+
+
+def _ends(value: Any) -> tuple[float, float]:
+    """[0, 1] -> (0, 1). Raises ValueError."""
+    numbers = isinstance(value, (list, tuple)) and [type(end) for end in value if type(end) in (int, float)]
+    if not numbers or len(numbers) != 2 or len(value) != 2:
+        raise ValueError("should be two numbers, lower and upper, such as [0, 1]")
+    return value[0], value[1]
+
+
+Ends = Annotated[tuple[float, float], BeforeValidator(_ends)]
+"""Lower and upper end of a range in a TOML file."""
 
 
 def read_toml(path: Path) -> tuple[dict[str, Any], str]:
@@ -101,13 +113,40 @@ def _leave_out(content: dict[str, Any], location: tuple[int | str, ...]) -> None
         del holder[key]
 
 
+KINDS = {
+    "string_type": "text, in quotes",
+    "bool_type": "true or false",
+    "int_type": "a whole number",
+    "float_type": "a number",
+    "tuple_type": "a list",
+    "dict_type": "a table",
+    "model_type": "a table",
+}
+"""What a file calls a type, by the name of its fault."""
+
+
 def _sentence(form: type[Strict], fault: Any) -> str:
     place = _words(fault["loc"])
     if fault["type"] == "extra_forbidden":
         where, key = " ".join(place[:-1]), str(fault["loc"][-1])
         return f'{where + ": " if where else ""}no key "{key}". {nearest(key, _keys_of(form, fault["loc"][:-1]))}'
-    message = fault["msg"].removeprefix("Value error, ")
+    if told := _brackets(form, fault):
+        return told
+    kind = KINDS.get(fault["type"])
+    message = f"input should be {kind}" if kind else fault["msg"].removeprefix("Value error, ")
     return shown(f"{' '.join(place)}: {message[0].lower() + message[1:]}.")
+
+
+def _brackets(form: type[Strict], fault: Any) -> str:
+    """On a table that stands in the other kind of brackets, "" on any other fault."""
+    key, given = "".join(map(str, fault["loc"][:1])), fault["input"]
+    if len(fault["loc"]) != 1 or key not in form.model_fields or not any(_forms_in(form.model_fields[key].annotation)):
+        return ""
+    if fault["type"] == "list_type" and isinstance(given, dict):
+        return f"[{key}] should be [[{key}]], in two brackets: there may be several."
+    if fault["type"] == "model_type" and isinstance(given, list):
+        return f"[[{key}]] should be [{key}], in one bracket: there is one."
+    return ""
 
 
 LONGEST, LONGEST_QUOTED = 1000, 100

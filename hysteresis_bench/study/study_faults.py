@@ -7,8 +7,10 @@ from pathlib import Path
 from typing import Any
 
 from hysteresis_bench import registry
+from hysteresis_bench.compose import System
 from hysteresis_bench.errors import nearest
 from hysteresis_bench.fit.loss import LOSSES
+from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.study.strict import listed, table, tables
 
 
@@ -28,8 +30,8 @@ def content_faults(raw: dict[str, Any]) -> list[str]:
         found += [f"[[stage]] {number}: {fault}" for fault in _stage_faults(spec, raw)]
     if isinstance(raw.get("closing"), dict):
         found += [f"[closing]: {fault}" for fault in _closing_faults(raw["closing"], raw)]
-    found += [*_instance_faults(raw), *_unprintable(raw), *_outside(raw.get("published"))]
-    found += doubles("optimizer", [str(each.get("label") or each.get("plugin")) for each in tables(raw, "optimizer")])
+    found += [*_reference_faults(raw), *_instance_faults(raw), *_unprintable(raw), *_outside(raw.get("published"))]
+    found += doubles("optimizer", _labels(raw))
     for key in ("problem", "stage"):
         found += doubles(key, [str(each["name"]) for each in tables(raw, key) if "name" in each])
     return found
@@ -124,8 +126,20 @@ def _instance_faults(raw: dict[str, Any]) -> list[str]:
     return found
 
 
+def _labels(raw: dict[str, Any]) -> list[str]:
+    return [str(each.get("label") or each.get("plugin")) for each in tables(raw, "optimizer")]
+
+
+def _reference_faults(raw: dict[str, Any]) -> list[str]:
+    """The others are compared with it. Where none is named, a study may do without."""
+    labels, named = _labels(raw), raw.get("reference")
+    if not labels or not isinstance(named, str) or named in labels:
+        return []
+    return [f'reference: no optimizer "{named}" in this study. {nearest(named, labels)}']
+
+
 def _label_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
-    labels = [str(each.get("label") or each.get("plugin")) for each in tables(raw, "optimizer")]
+    labels = _labels(raw)
     wanted = [label for label in listed(spec, "optimizers") if label not in labels]
     return [f'optimizers: no optimizer "{label}" in this study. {nearest(label, labels)}' for label in wanted]
 
@@ -138,14 +152,16 @@ def _stage_faults(spec: dict[str, Any], raw: dict[str, Any]) -> list[str]:
             found.append(f'{key}: no problem "{spec[key]}". {nearest(str(spec[key]), problems)}')
     for label in set(listed(spec, "control")) - set(listed(spec, "optimizers")):
         found.append(f'control: "{label}" is not among the optimizers of this stage.')
-    if spec.get("control") and not problems.get(str(spec.get("after")), {}).get("rig"):
-        found.append(f'control: "{spec.get("after")}" has no rig to control.')
+    if spec.get("control") and "after" in spec and not problems.get(str(spec["after"]), {}).get("rig"):
+        found.append(f'control: "{spec["after"]}" has no rig to control.')
     found += _controller_faults(spec)
     source = {key: value for key, value in problems.get(str(spec.get("after")), {}).items() if key.startswith("rig")}
     found += problem_faults(source | {"fitted": listed(spec, "fitted"), "held_out": listed(spec, "check")})
     names, known = _parameter_names(spec), _parameter_names(problems.get(str(spec.get("after")), {}))
+    if "model" not in spec:  # the file's form says so already
+        return found
     if not names:
-        return found + registry.faults("models", str(spec.get("model")), table(spec, "settings"))
+        return found + registry.faults("models", str(spec["model"]), table(spec, "settings"))
     fit = listed(spec, "fit")
     found += [
         f'fit: {spec["model"]} has no parameter "{name}". {nearest(name, names)}' for name in fit if name not in names
@@ -195,18 +211,24 @@ def _parameter_names(spec: dict[str, Any]) -> list[str]:
 
 
 def _bound_faults(spec: dict[str, Any]) -> list[str]:
-    model = registry.build("models", spec["model"], table(spec, "settings"))
-    parameters = {parameter.name: parameter for parameter in model.parameters}
+    model, effects = registry.build("models", spec["model"], table(spec, "settings")), listed(spec, "effects")
+    built = not any(registry.effect_faults(effect, spec["model"]) for effect in effects)
+    system = System(model, registry.build_effects(model, effects) if built else (), {})
+    parameters = {parameter.name: parameter for parameter in system.parameters}
+    whole = f"{spec['model']} with {', '.join(effects)}" if effects else spec["model"]
     found = []
     for key in ("bounds", "fixed", "profile"):
         values = spec.get(key, {})
         for name in values if isinstance(values, (dict, list)) else ():
-            if name not in parameters and "." not in name:
-                found.append(f'{key}: {spec["model"]} has no parameter "{name}". {nearest(name, parameters)}')
+            if name not in parameters and (built or "." not in name):
+                found.append(f'{key}: {whole} has no parameter "{name}". {nearest(name, parameters)}')
+    for name, value in table(spec, "fixed").items():
+        known = parameters.get(name, Parameter(name, 0.0, 1.0))
+        found += [f"fixed {fault}" for fault in [known.refuses(value)] if fault]
     for name, pair in table(spec, "bounds").items():
         numbers = isinstance(pair, list) and len(pair) == 2 and all(isinstance(x, (int, float)) for x in pair)
         if name in parameters and numbers:
             scaling = spec.get("scaling") or parameters[name].scaling
             if scaling in ("linear", "log"):
-                found += [f"bounds {fault}" for fault in parameters[name].within(*pair, scaling).faults()]
+                found += [f"bounds {fault}" for fault in parameters[name].within(pair[0], pair[1], scaling).faults()]
     return found

@@ -11,7 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.data.layout import ROLES, Layout
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.parameters import Scaling
-from hysteresis_bench.study.strict import Seconds, Strict, read_toml, shown, validated
+from hysteresis_bench.study.strict import Ends, Seconds, Strict, read_toml, shown, validated
 from hysteresis_bench.study.study_faults import content_faults
 
 AS_MANY = {"optimizers", "instances", "most_trials"}
@@ -88,11 +88,11 @@ class ProblemSpec(Strict):
     scaling: Scaling | None = None
     loss: str = "rmse"
     box: Literal["model", "data"] = "model"
-    bounds: dict[str, tuple[float, float]] = {}
+    bounds: dict[str, Ends] = {}
     fixed: dict[str, float] = {}
     profile: list[str] = []
     instances: PositiveInt | None = None
-    ranges: dict[str, tuple[float, float]] = {}
+    ranges: dict[str, Ends] = {}
     optimizers: list[str] = []
     most_trials: PositiveInt | None = None
     skip: Seconds | None = None
@@ -134,7 +134,7 @@ class StageSpec(Strict):
     optimizers: list[str] = []
     model: str
     settings: dict[str, Any] = {}
-    fit: tuple[str, str, str]
+    fit: tuple[str, str, str] = Field(strict=False)
     fitted: list[str] = Field(min_length=1)
     check: list[str] = []
     beside: str | None = None

@@ -96,8 +96,8 @@ settings = { particels = 10 }
     [
         (("[[optimizer]]", '[[optimizer]]\nplugin = "pso"\n[[optimizer]]'), 'two [[optimizer]] are both called "pso"'),
         (('plugin = "pso"', 'plugin = "pso"\nsettings = { particles = "many" }'), "particles = 'many'"),
-        (('plugin = "pso"', 'plugin = "pso"\nsettings = 3'), "[[optimizer]] 1 settings: input should be a valid dict"),
-        (('data = ["a.csv"]', 'data = ["a.csv"]\nbounds = 3'), "[[problem]] 1 bounds: input should be a valid dict"),
+        (('plugin = "pso"', 'plugin = "pso"\nsettings = 3'), "[[optimizer]] 1 settings: input should be a table"),
+        (('data = ["a.csv"]', 'data = ["a.csv"]\nbounds = 3'), "[[problem]] 1 bounds: input should be a table"),
         (
             ('data = ["a.csv"]', 'data = ["a.csv"]\neffects = "bias"'),
             "1 effects: input should be a valid list",
@@ -157,7 +157,7 @@ says = 3
         '[closing]: no key "fited". Known:',
         'Did you mean "fitted"',
         "[closing] fitted: field required",
-        "[closing] says: input should be a valid string",
+        "[closing] says: input should be text, in quotes",
         '[closing]: no model "jiles-athertn"',
         'no effect "input-lga"',
         'held_out: rig sma has no experiment "pwm-50". Known:',

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.study.strict import Strict, read_toml, validated
+from hysteresis_bench.study.strict import Ends, Strict, read_toml, validated
 from hysteresis_bench.study.study_file import read_study
 
 Kind = Literal["contradiction", "misprint", "omission", "consequence"]
@@ -79,7 +79,7 @@ class Audit(Strict):
     expects: bool | float | None = None
     tolerance: float = 5e-3
     name: str = ""
-    sample: dict[str, tuple[float, float]] = {}
+    sample: dict[str, Ends] = {}
     scaling: Literal["linear", "log"] = "linear"
 
 

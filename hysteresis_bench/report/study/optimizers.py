@@ -33,9 +33,11 @@ def at_equal_evaluations(
     here: Sequence[Problem], summary: pd.DataFrame, reference: str, pictures: Sequence[Picture]
 ) -> Section:
     """Who won, and every optimizer in a table. pictures : of all trials, of problems that have none elsewhere"""
+    known = any(reference in problem.labels for problem in here)
+    others = f"with the reference, {reference}, and with the best" if known else "with the best"
     how = (
-        f"{SUCCESS} Verdicts compare fitness, each optimizer with the reference, {reference}, and with the best by "
-        "median only. Every other number of a row is in summary.csv."
+        f"{SUCCESS} Verdicts compare fitness, each optimizer {others} by median only. Every other number of a row is "
+        "in summary.csv."
     )
     tables = [table(problem, summary) for problem in here]
     blocks: list[Block] = [Bullets(winners(here, summary)), *([Figures(pictures)] if pictures else []), how, *tables]
@@ -80,9 +82,10 @@ def table(problem: Problem, summary: pd.DataFrame) -> Table:
     columns["Time"] = [seconds(value) for value in here["seconds_median"]]
     if here["failed"].any():
         columns["Failed"] = [str(value) if value else NONE for value in here["failed"]]
-    if enough:
+    if enough and problem.reference in problem.labels:
         columns["Against reference"] = [_verdict(row["verdict_reference"]) for _, row in here.iterrows()]
         columns["A12 (95 %)"] = [_a12(row) for _, row in here.iterrows()]
+    if enough:
         columns["Against best"] = [_verdict(row["verdict_best"]) for _, row in here.iterrows()]
     same = list(here["optimizer"][here["deterministic"]])
     note = f"Deterministic, counted once an instance: {listed(same, len(same))}. " if same else ""

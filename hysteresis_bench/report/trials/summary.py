@@ -105,9 +105,13 @@ def _row(problem: Problem, label: str, budget: int) -> dict[str, object]:
         "seconds_median": problem.middle(label, "seconds"),
         "mean_rank": problem.friedman.mean_ranks[problem.labels.index(label)],
     }
-    for name, family in (("reference", problem.against_reference), ("best", problem.against_winner)):
+    against = (
+        ("reference", problem.reference, problem.against_reference),
+        ("best", problem.winner, problem.against_winner),
+    )
+    for name, other, family in against:
         found = family.get(label)
-        row[f"verdict_{name}"] = found.words if found else f"is the {name}"
+        row[f"verdict_{name}"] = found.words if found else f"is the {name}" if label == other else f"no {name}"
         row[f"p_{name}"] = found.p if found else None
         for key in ("a12", "low", "high"):
             row["_".join(dict.fromkeys(("a12", key, name)))] = getattr(found, key) if found else None

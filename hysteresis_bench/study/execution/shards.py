@@ -54,10 +54,15 @@ def merge(folders: Sequence[Path], out: Path) -> int:
 
     Of a trial that several folders hold, one that has a result is kept. Tables and report are written by `run` into
     the new folder, which runs what is missing first.
-    Raises UserError where a folder holds no study or another one, two results contradict each other, or `out` exists.
+    Raises UserError where a folder is named twice, or holds no study or another one, two results contradict each other,
+    or `out` exists.
     """
     if out.exists():
         raise UserError(str(out), "exists already. Choose another folder with --out.")
+    places = [folder.resolve() for folder in folders]
+    if twice := [place for index, place in enumerate(places) if place in places[:index]]:
+        named = dict.fromkeys(f"{place} is named twice; name every part once." for place in twice)
+        raise UserError("merge", list(named))
     study = _same_study(folders)
     found: dict[Trial, tuple[Path, Outcome]] = {}
     for folder in folders:
