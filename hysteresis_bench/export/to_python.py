@@ -22,6 +22,15 @@ def python_of(function: Function) -> str:
     return ast.unparse(ast.fix_missing_locations(tree))
 
 
+POWER = '''def raised_to(base, exponent):
+    """base ** exponent, infinite where it is too large for a number, as compiled code has it."""
+    try:
+        return base ** exponent
+    except OverflowError:
+        return -math.inf if base < 0.0 and exponent % 2.0 == 1.0 else math.inf'''
+"""What stands in the place of the operator, which raises an error there."""
+
+
 class _Plain(ast.NodeTransformer):
     def __init__(self, function: Function) -> None:
         self.function = function
@@ -36,6 +45,12 @@ class _Plain(ast.NodeTransformer):
     def visit_Attribute(self, node: ast.Attribute) -> ast.expr:
         """What is used of numpy, `math` has too."""
         return ast.Attribute(ast.Name("math", ast.Load()), node.attr, node.ctx)
+
+    def visit_BinOp(self, node: ast.BinOp) -> ast.expr:
+        left, right = self.visit(node.left), self.visit(node.right)
+        if isinstance(node.op, ast.Pow):
+            return ast.Call(ast.Name("raised_to", ast.Load()), [left, right], [])
+        return ast.BinOp(left, node.op, right)
 
     def visit_AnnAssign(self, node: ast.AnnAssign) -> ast.stmt:
         assert node.value is not None

@@ -12,7 +12,7 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.export.chain import Chain, chain_of
 from hysteresis_bench.export.functions import gathered, name_of
 from hysteresis_bench.export.to_c import HELPERS, c_of, number, prototype
-from hysteresis_bench.export.to_python import python_of
+from hysteresis_bench.export.to_python import POWER, python_of
 from hysteresis_bench.fit.model_file import FittedModel
 
 SUFFIXES: Mapping[str, str] = {"python": ".py", "c": ".c"}
@@ -117,7 +117,8 @@ def _python(chain: Chain) -> str:
     prepared = chain.fitted.preparation
     sign = -1.0 if prepared.flip else 1.0
     views = [(link.state, link.part.state, link.constants, len(link.part.constants)) for link in chain.links]
-    body = "\n\n\n".join(python_of(function) for function in gathered(chain.roots))
+    functions = [python_of(function) for function in gathered(chain.roots)]
+    body = "\n\n\n".join([POWER, *functions] if any("raised_to(" in one for one in functions) else functions)
     for state, _, constants, _ in views:
         index = [(one[0], one[2]) for one in views].index((state, constants))
         step = [line.replace(f"s[{state}], p[{constants}]", f"s[{index}], p[{index}]") for line in step]

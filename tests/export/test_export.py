@@ -354,9 +354,29 @@ def test_python_needs_nothing(tmp_path):
     subprocess.run([sys.executable, "-I", "-c", code], cwd=tmp_path, check=True)
 
 
+@pytest.mark.parametrize(
+    ("settings", "values"),
+    [
+        ({}, {"alpha": -2.0, "beta": 0.3, "gamma": -0.9}),  # bounded, as the rates change places with the sign
+        ({"n": 3.7}, {"alpha": -3.0, "beta": 8.84e-4, "gamma": -8.05e-4, "d": 3.315}),  # trial stages overflow
+    ],
+)
+def test_a_clockwise_law_is_exported_as_it_is(settings, values):
+    model = fitted(settings=settings, **values)
+    jumps = np.where(np.arange(TIME.size) % 40 < 20, 1.0, -1.0) * np.linspace(0.0, 60.0, TIME.size)
+    alone: dict = {}
+    exec(exported(model, "python"), alone)
+    state = alone["start"]()
+    answered = np.array([alone["step"](state, t, u) for t, u in zip(TIME.tolist(), jumps.tolist(), strict=True)])
+    record = Record(TIME, jumps, None, units=model.units)
+    expected = model.predict(Dataset((record,))).records[0].output
+    assert np.max(np.abs(answered - expected)) < 1e-8 * np.ptp(expected)
+
+
 def test_what_cannot_be_exported_says_so():
     for model, words in (
         (fitted(beta=-0.1), "has no bound"),
+        (fitted(alpha=-2.0, beta=0.3, gamma=0.9), "beta - gamma below 0"),
         (FittedModel("polynomial", {}, (), {}, {"time": "s"}, {}), "model polynomial cannot be exported"),
         (replace(fitted(), effects=("eddy-current",), effect_settings={}), "acts inside the model's own equation"),
     ):

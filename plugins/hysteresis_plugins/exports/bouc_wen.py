@@ -30,10 +30,16 @@ def inverse(s: Array, p: Array, v: float) -> float:
     return s[1]
 
 
+def unbounded(p: Mapping[str, float]) -> str:
+    """Why h has no bound, as `kernels.bouc_wen.bounded` has it; else ""."""
+    sign, rate = ("+", p["beta"] + p["gamma"]) if p["alpha"] * p["d"] >= 0.0 else ("-", p["beta"] - p["gamma"])
+    return f"with beta or beta {sign} gamma below 0 its hysteresis has no bound" if min(p["beta"], rate) < 0.0 else ""
+
+
 def part(model: Any, p: Mapping[str, float], timed: bool) -> Part:
     """Raises ValueError where h has no bound: the model cuts it by the length of the whole record."""
-    if p["beta"] < 0.0 or p["beta"] + p["gamma"] < 0.0:
-        raise ValueError("with beta or beta + gamma below 0 its hysteresis has no bound")
+    if reason := unbounded(p):
+        raise ValueError(reason)
     constants = (p["alpha"], p["beta"], p["gamma"], p["d"], float(model.n))
     steepest = p["alpha"] * max(1.0, 2.0 * p["beta"] / (p["beta"] + p["gamma"])) if p["beta"] > 0.0 else np.inf
     return Part(constants, state=3, invertible=bool(p["d"] > 0.0 and p["alpha"] >= 0.0 and steepest < 1.0))

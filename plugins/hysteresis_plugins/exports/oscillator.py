@@ -19,6 +19,7 @@ from hysteresis_bench.kernels.bouc_wen_step import moved
 from hysteresis_bench.kernels.dahl import slipped
 from hysteresis_bench.kernels.oscillator_step import CLOSE, MOST
 from hysteresis_bench.kernels.play import played
+from hysteresis_plugins.exports.bouc_wen import unbounded
 from hysteresis_plugins.models._plays import named, thresholds
 from hysteresis_plugins.models.oscillator import LAWS
 
@@ -106,8 +107,8 @@ def part(model: Any, p: Mapping[str, float], timed: bool) -> Part:
     own = [p[parameter.name] for parameter in spring_law.parameters]
     head, first, states = [0.0] * FIRST, list[float](), 2
     if model.law == "bouc-wen":
-        if p["beta"] < 0.0 or p["beta"] + p["gamma"] < 0.0:
-            raise ValueError("with beta or beta + gamma below 0 its hysteresis has no bound")
+        if reason := unbounded(p):
+            raise ValueError(reason)
         first, states = [p["alpha"], p["beta"], p["gamma"], p["d"], float(spring_law.n)], 1
     elif model.law == "bouc-wen-generalized":
         head = own
