@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import replace
 from functools import cache
+from importlib.resources import as_file, files
 from typing import Any
 
 import numpy as np
@@ -50,7 +51,7 @@ def is_unit(text: str) -> bool:
 def is_no_duration(text: str) -> bool:
     """Whether a text is a known unit of something else than time; an angle or a number may stand for time."""
     unit = None if text == "s" else _parsed(text)
-    return unit is not None and not unit.dimensionless and not unit.is_compatible_with("s")
+    return unit is not None and not (unit.dimensionless or any(map(unit.is_compatible_with, ("s", "rad"))))
 
 
 def converted(values: Array, unit: str, wanted: str) -> Array:
@@ -68,8 +69,9 @@ def converted(values: Array, unit: str, wanted: str) -> Array:
 
     try:
         quantity = _registry().Quantity(np.asarray(values, dtype=float), have)
+        contexts = ("Gaussian",) if _is_gaussian(have, want) or _is_gaussian(want, have) else ()
         with np.errstate(over="ignore", invalid="ignore"):
-            found = np.asarray(quantity.to(want, "Gaussian").magnitude, dtype=float)
+            found = np.asarray(quantity.to(want, *contexts).magnitude, dtype=float)
     except (PintError, ArithmeticError):
         raise ValueError(f"{unit} does not convert into {wanted}") from None
     if not np.all(np.isfinite(found)):
@@ -161,12 +163,29 @@ def _with_columns(record: Record, columns: Mapping[str, Array], units: Mapping[s
     )
 
 
+def _is_gaussian(one: Any, other: Any) -> bool:
+    """Is one in Gauss's system, and the other the SI's unit of the same quantity?
+
+    A registry takes one of its units for another wherever that has the same dimensions there, as field and flux density
+    have: teslas would become A/m.
+    """
+    quantities = {"oersted": "A/m", "gauss": "T", "maxwell": "Wb"}
+    return any(name in str(one) and other.is_compatible_with(unit) for name, unit in quantities.items())
+
+
 @cache
 def _registry() -> Any:
-    """Built when a unit is first looked at: it takes half a second."""
+    """Built when a unit is first looked at: it takes half a second.
+
+    An angle is a dimension of its own: else a hertz would be a radian a second, and a turn 6.28.
+    """
     import pint
 
-    return pint.UnitRegistry()
+    registry: Any = pint.UnitRegistry(None, on_redefinition="ignore")
+    with as_file(files(pint) / "default_en.txt") as definitions:
+        registry.load_definitions(definitions)
+    registry.define("radian = [angle] = rad")
+    return registry
 
 
 @cache

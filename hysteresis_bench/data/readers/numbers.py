@@ -21,8 +21,13 @@ BLANKS = "\u00a0\u2009\u202f"
 NUMBER = re.compile(rf"[-+−]?(\d([\d.,'’]|[{BLANKS}](?=\d\d\d))*|[.,]\d+)([eEdD][-+]?\d+)?")
 COMMA_GROUPS = re.compile(r"[-+−]?[1-9]\d{0,2}(,\d{3})+")
 POINT_GROUPS = re.compile(r"[-+−]?[1-9]\d{0,2}(\.\d{3})+")
-GROUPS = {mark: re.compile(rf"(?<=\d)[{other}'’{BLANKS}](?=\d{{3}}(\D|$))") for mark, other in ((",", "."), (".", ","))}
-"""What may stand between thousands, by the decimal mark."""
+GROUPED = {
+    mark: re.compile(
+        rf"[-+−]?[1-9]\d{{0,2}}([{other}'’{BLANKS}])\d{{3}}(\1\d{{3}})*({re.escape(mark)}\d*)?([eEdD][-+]?\d+)?"
+    )
+    for mark, other in ((",", "."), (".", ","))
+}
+"""Numbers with one mark between all their thousands, by the decimal mark: `0.123` and `12345.678` have none."""
 CLOCK = re.compile(r"(\d{1,3}):(\d\d)(?::(\d\d(?:[.,]\d+)?))?(?: ?([AP])M)?", re.IGNORECASE)
 MINUTES = re.compile(r"(\d{1,4}):(\d\d[.,]\d+)")
 DAY, HALF, HOUR = 86400.0, 43200.0, 3600.0
@@ -66,7 +71,10 @@ def number(cell: object, decimal: str = ".") -> float:
             return float(cell.replace(",", "."))
     except ValueError:
         pass
-    text = GROUPS[decimal].sub("", cell.strip()).replace("−", "-")
+    text = cell.strip()
+    if grouped := GROUPED[decimal].fullmatch(text):
+        text = text.replace(grouped[1], "")
+    text = text.replace("−", "-")
     if decimal == ",":
         if "." in text:
             return math.nan
@@ -115,24 +123,30 @@ def decimal_mark(cells: Iterable[tuple[int, str]]) -> str:
     return mark
 
 
-def seconds(cells: pd.Series) -> Array | None:
-    """Times of day or dates as seconds after the first, (samples,); None where a cell is neither.
+def seconds(cells: pd.Series) -> tuple[Array, str] | None:
+    """Times of day or dates as seconds after the first, (samples,), and what they were read as; None where a cell is
+    neither.
 
-    Times of day may go past midnight; dates are those of ISO 8601, or with dots.
+    Times of day may go past midnight; dates are those of ISO 8601, or with dots. Of two numbers the first are minutes
+    where a day has not as many hours, or where the second have decimals, else hours.
     """
     texts = [_iso(str(cell).strip().replace(",", ".")) for cell in cells]
     for clock in (CLOCK, MINUTES):
         if all(found := [clock.fullmatch(text) for text in texts]):
             times = np.array([_of_day(one) for one in found if one])
+            words, short = "times of day", clock is CLOCK and not any(one[3] or one[4] for one in found if one)
+            if clock is MINUTES or (short and times.max() >= DAY):
+                words, times = "minutes and seconds", times / 60.0 if short else times
+            elif short:
+                words = "times of day in hours and minutes"
             days = np.concatenate(([0.0], np.cumsum(np.diff(times) < -HALF)))
-            since: Array = np.round(times - times[0] + DAY * days, 9)
-            return since
+            return np.round(times - times[0] + DAY * days, 9), words
     if all(ISO.fullmatch(text) for text in texts):
         try:
             stamps = pd.to_datetime(pd.Series(texts), format="ISO8601", utc=True)
         except ValueError:
             return None
-        return np.asarray((stamps - stamps.iloc[0]).dt.total_seconds(), dtype=float)
+        return np.asarray((stamps - stamps.iloc[0]).dt.total_seconds(), dtype=float), "times of day"
     return None
 
 

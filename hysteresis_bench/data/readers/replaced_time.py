@@ -22,7 +22,7 @@ def another_rate(cells: pd.Series, unit: str | None, decimal: str, rate: float) 
     """
     time = np.array([number(cell, decimal) for cell in cells], dtype=float)
     if not np.isfinite(time).any() and (since := seconds(cells)) is not None:
-        time, unit = since, "s"
+        time, unit = since[0], "s"
     steps = np.diff(time[np.isfinite(time)])
     forward = steps[steps >= 0.0]
     if unit == INDEX or not np.sum(forward) > 0.0:

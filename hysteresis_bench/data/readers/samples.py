@@ -77,9 +77,9 @@ def numbers_of(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]
     if "time" in required and "time" in cells and not np.isfinite(numbers["time"]).any():
         since = seconds(cells["time"])
         if since is not None:
-            numbers["time"], empty["time"], units["time"] = since, np.zeros(since.size, dtype=bool), "s"
+            numbers["time"], empty["time"], units["time"] = since[0], np.zeros(since[0].size, dtype=bool), "s"
             faults = [fault for fault in faults if 'column "time"' not in fault]
-            notes.append("times of day as seconds after the first")
+            notes.append(f"{since[1]} as seconds after the first")
     if layout.rate is not None:
         numbers["time"], units["time"] = np.arange(len(cells)) / layout.rate, "s"
         if found.replaced and (other := another_rate(*found.replaced, sheet.decimal, layout.rate)):
