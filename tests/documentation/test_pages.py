@@ -78,7 +78,7 @@ def test_what_the_pages_conclude_from_the_kept_results_holds():
     for study, problem in (("pea", "static"), ("gma", "the five that can be known")):
         assert kept.summary(study, problem)["expected_running_time"].idxmin() == "scipy-least-squares"
     ours, all_of_them = map(int, kept.named(False).split(" of "))
-    assert ours < all_of_them / 2
+    assert 0.6 < ours / all_of_them < 0.75  # a third of the answers is wrong
     steel = [kept.measurement("electrical steel", f"{which}_after") for which in ("fitted", "held_out")]
     assert steel[1] > 5.0 * steel[0]
     assert kept.law("electrical steel, one loop", "held_out") < 0.5 * steel[1]
