@@ -18,6 +18,7 @@ from hypothesis import settings
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
+from hysteresis_bench.diagnosis.hypotheses import systems
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.parameters import Space
@@ -37,6 +38,12 @@ def real_data() -> Path:
     if not folder.is_dir():
         pytest.skip("no real measurements: set HYSTERESIS_DATA to their folder")
     return folder
+
+
+def forget_plugins() -> None:
+    """What is registered is asked anew: a test that adds a distribution does so before it and after it."""
+    for cache in (registry._points, registry.offered, registry.effect, systems._built):
+        cache.cache_clear()
 
 
 def record(samples: int = 40, name: str = "sine", a: float = 1.0, b: float = 0.5) -> Record:

@@ -12,15 +12,14 @@ from hysteresis_bench import registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.ties import GENERIC, tie
-from hysteresis_bench.diagnosis.hypotheses import systems
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects, can_be_hidden
 from hysteresis_bench.fit.fitting import fit_records
 from hysteresis_bench.signals import Dataset, joined
+from tests.conftest import forget_plugins
 
 BEND, ZERO = "output-bend", "input-zero"
-CACHES = (registry._points, registry.offered, registry.effect, systems._built)
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -28,12 +27,10 @@ def _installed():
     """The distribution is there for this module alone: elsewhere it would be a candidate of every diagnosis."""
     folder = str(Path(__file__).parents[1] / "another_distribution")
     sys.path.append(folder)
-    for cache in CACHES:
-        cache.cache_clear()
+    forget_plugins()
     yield
     sys.path.remove(folder)
-    for cache in CACHES:
-        cache.cache_clear()
+    forget_plugins()
 
 
 @pytest.fixture(scope="module")

@@ -26,7 +26,7 @@ from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.execution.trial import Ticket, run_trial
 from hysteresis_bench.study.problems import Built
 from hysteresis_bench.study.study_file import check_study
-from tests.conftest import record
+from tests.conftest import forget_plugins, record
 
 SECOND = str(Path(__file__).parents[1] / "second_distribution")
 
@@ -150,10 +150,10 @@ def test_a_prediction_that_is_not_finite_is_none(fitted):
 @pytest.fixture
 def _second():
     sys.path.append(SECOND)
-    registry._points.cache_clear()
+    forget_plugins()
     yield
     sys.path.remove(SECOND)
-    registry._points.cache_clear()
+    forget_plugins()
 
 
 @pytest.mark.usefixtures("_second")

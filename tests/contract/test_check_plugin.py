@@ -11,13 +11,12 @@ from numba.core.event import trigger_event
 
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
-from hysteresis_bench.diagnosis.hypotheses import systems
 from hysteresis_bench.testing.check import BROKEN, CONTRACTS, KEPT, Question, answer, check
 from hysteresis_bench.testing.contracts.contract import promises
 from hysteresis_bench.testing.contracts.limit import Overrun, within
+from tests.conftest import forget_plugins
 
 FOLDER = str(Path(__file__).parents[1] / "broken_plugins")
-CACHES = (registry._points, registry.offered, registry.effect, systems._built)
 
 TOLD = {
     "optimizers": {
@@ -80,13 +79,11 @@ def _installed():
     sys.path.append(FOLDER)
     before = os.environ.get("PYTHONPATH")
     os.environ["PYTHONPATH"] = FOLDER if before is None else f"{before}{os.pathsep}{FOLDER}"
-    for cache in CACHES:
-        cache.cache_clear()
+    forget_plugins()
     yield
     sys.path.remove(FOLDER)
     os.environ.pop("PYTHONPATH") if before is None else os.environ.update(PYTHONPATH=before)
-    for cache in CACHES:
-        cache.cache_clear()
+    forget_plugins()
 
 
 def reasons(kind: str, name: str) -> list[str]:

@@ -72,7 +72,7 @@ def test_too_few_samples_have_no_spectrum():
 @pytest.mark.parametrize(
     ("columns", "reason"),
     [
-        ({}, "record warm has no column temperature"),
+        ({}, "record warm has no column temperature with a number in every row"),
         ({"temperature": np.full(TIME.size, 25.0)}, "the temperature never changes"),
         ({"temperature": np.full(TIME.size, np.nan)}, "the temperature is not known at every sample"),
     ],
