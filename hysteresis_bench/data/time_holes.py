@@ -64,7 +64,7 @@ def time_holes_told(record: Record, holes: Array, lines: Array) -> str:
     """
     if not holes.size:
         return ""
-    stated = record.units.get("time", "")
+    stated = record.units.get("time", "s")
     unit = " samples" if stated == INDEX else f" {stated}" if stated not in ("", "1") else ""
     each = [
         f"{float(record.time[hole + 1] - record.time[hole]):.4g}{unit} between rows {lines[hole]} and {lines[hole + 1]}"

@@ -17,6 +17,7 @@ from hysteresis_bench.diagnosis.laws.exclusion import excluded, why_not
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.diagnosis.structure.structure import structure
 from hysteresis_bench.signals import Dataset
+from tests.conftest import forget_plugins
 from tests.diagnosis.structure.made import coleman_hodgdon, modulated, plays, seen, sine
 
 ONE = DiagnosisOptions(jobs=1)
@@ -37,6 +38,8 @@ def few(monkeypatch):
     whole = registry.names
     named = ("dahl", "energy-based")
     monkeypatch.setattr(registry, "names", lambda kind: named if kind == "models" else whole(kind))
+    yield
+    forget_plugins()  # what these two offer
 
 
 def test_loops_exclude_a_law_that_runs_the_other_way(few):
