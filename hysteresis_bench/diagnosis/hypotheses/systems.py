@@ -104,9 +104,7 @@ class Stack:
                 impossible[name] = f"broken: {fault}"
             elif self.effect(name).nuisance or isinstance(self.effect(name), FreeForm):
                 continue
-            elif reason := unlike_wanted(self.effect(name), self.records) or self.effect(name).inapplicable(
-                self.records
-            ):
+            elif reason := self._inapplicable(name):
                 impossible[name] = reason
             elif not self._solvable(name):
                 impossible[name] = "behind it the output is not linear in the law's many weights, which are solved for"
@@ -122,8 +120,12 @@ class Stack:
         """Names of the free forms that can be tried."""
         known = [name for name in sorted(registry.names("effects")) if not registry.load("effects", name).fault]
         known = [name for name in known if isinstance(self.effect(name), FreeForm) and name not in self.own]
-        known = [name for name in known if not unlike_wanted(self.effect(name), self.records)]
-        return tuple(n for n in known if not self.effect(n).inapplicable(self.records) and self._solvable(n))
+        return tuple(name for name in known if not self._inapplicable(name) and self._solvable(name))
+
+    def _inapplicable(self, name: str) -> str:
+        """Why an effect cannot be fitted to the records, its columns' units among the reasons; else ""."""
+        effect = self.effect(name)
+        return unlike_wanted(effect, self.records) or effect.inapplicable(self.records)
 
     def _solvable(self, name: str) -> bool:
         """Can a law whose many weights are solved for be solved with this effect?"""

@@ -88,10 +88,8 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     effects_follow : effects will be sought around the laws, and a part is held out where none is.
     Raises UserError telling every fault at once.
     """
-    options, ready = (
-        question.options,
-        _prepared(question.in_wanted_units(dataset), question, "diagnose" if effects_follow else "compare"),
-    )
+    options, purpose = question.options, "diagnose" if effects_follow else "compare"
+    ready = _prepared(question.in_wanted_units(dataset), question, purpose)
     settles = settled_periods(ready.fitted, options.settle)
     passing = Passing(ready, settles, effects_follow, tuple(question.effects), options.seed)
     thin, seen = passing.begun, passing.begun.dataset
