@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from scipy.optimize import least_squares
 
 from hysteresis_bench import registry
@@ -11,7 +12,8 @@ from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.fit.least_squares import descend, errors, not_overlooked, point_of, polish, split, values_of
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
-from hysteresis_bench.fit.unseen.advantage import advantage
+from hysteresis_bench.fit.unseen.advantage import advantage, chance
+from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FOLDS, cut, left_out_errors
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
@@ -75,7 +77,20 @@ def test_left_out_errors_are_a_little_larger_than_fitted_ones():
     left_out = left_out_errors(problem, points[:, 0], blocks)
     assert squares[0] < np.sum(left_out**2) < 1.05 * squares[0]
     assert advantage(0.5 * left_out, left_out, blocks) > 5.0
+    assert chance(0.5 * left_out, left_out, blocks) < 1e-6 < 0.99 < chance(left_out, 0.5 * left_out, blocks)
     assert advantage(left_out, left_out, blocks) == 0.0
+    assert chance(left_out, left_out, blocks) == 1.0
+
+
+@pytest.mark.parametrize("count", [8, 24])
+@pytest.mark.parametrize("heavy", [False, True])
+def test_a_p_value_of_blocks_is_none_too_small(count, heavy):
+    """Where neither predicts better. The larger of two statistics, read as normal, is below 0.01 twice as often."""
+    rng, blocks = np.random.default_rng(11), Blocks(np.arange(count), np.arange(count) % 4, 4)
+    gains = rng.standard_t(3, (1500, count)) if heavy else rng.standard_normal((1500, count))
+    ours = np.full(count, 10.0)
+    p = np.array([chance(ours, np.sqrt(100.0 + one), blocks) for one in gains])
+    assert np.mean(p < 0.01) <= 0.013  # 0.010, and 1.2 times its standard error of 1500 draws
 
 
 def test_values_and_points_are_inverse():

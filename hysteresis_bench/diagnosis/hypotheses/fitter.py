@@ -22,7 +22,7 @@ from hysteresis_bench.fit.least_squares import descend, errors, jacobian, point_
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.search import search
 from hysteresis_bench.fit.seeds import generator, shared_start
-from hysteresis_bench.fit.unseen.advantage import advantage
+from hysteresis_bench.fit.unseen.advantage import chance
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.excitations import Excitations, excitations
 from hysteresis_bench.fit.unseen.left_out import cut, errors_without, left_out_errors
@@ -193,7 +193,7 @@ class Fitter:
             return NestedTest(0.0, 1.0, 0)
         nuisance = {*registry.OFFSETS} >= larger.names ^ smaller.names
         fitted = self._tested(smaller, larger, 0 if nuisance else SEARCHED)
-        return fitted.either(advantage(larger.left_out, smaller.left_out, self.blocks))
+        return fitted.either(chance(larger.left_out, smaller.left_out, self.blocks))
 
     def _tested(self, smaller: Hypothesis, larger: Hypothesis, searched: int) -> NestedTest:
         known, all_ = (self.fitted_values(hypothesis) for hypothesis in (smaller, larger))

@@ -1,7 +1,7 @@
 """The nested-model test: does a system with one effect more fit better than chance would?
 
 An F test on residuals made white by the autoregression of the larger system's, with the degrees of freedom of
-the effective sample size (`coloured`). A parameter without effect under the null, such as the sharpness of a
+the effective sample size (`autocorrelated`). A parameter without effect under the null, such as the sharpness of a
 saturation that is switched off, is searched for all the same [1]: every such effect pays for `SEARCHED`
 parameters more than it has.
 
@@ -34,14 +34,9 @@ class NestedTest:
     p: float
     added: int
 
-    def either(self, advantage: float) -> NestedTest:
-        """With the p-value of this or of the larger system's advantage on blocks left out, by Bonferroni.
-
-        advantage : in standard errors
-        """
-        from scipy.special import ndtr
-
-        return replace(self, p=min(1.0, 2.0 * min(self.p, float(ndtr(-advantage)))))
+    def either(self, p: float) -> NestedTest:
+        """With the smaller p-value of this and of blocks left out, doubled (Bonferroni).  p : of the blocks"""
+        return replace(self, p=min(1.0, 2.0 * min(self.p, p)))
 
 
 def nested_test(smaller: Sequence[Array], larger: Sequence[Array], added: int, free: int) -> NestedTest:
