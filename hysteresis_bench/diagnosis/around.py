@@ -115,9 +115,11 @@ def searched(dataset: Dataset, question: Question) -> Around:
     evidence = gather(prepared.views)
     found = search(prepared, evidence, question)
     on_step(Step(f"{law}: lone samples"))
-    if found.follows and (mended := without_lone_samples(found, prepared.dataset.records)):
-        prepared, found = _anew(prepared.read_as(mended.records, mended.note), question)
-        evidence = found.evidence
+    if found.follows and (mended := without_lone_samples(found, prepared.dataset)):
+        prepared = prepared.read_as(mended.records, mended.note)
+        if mended.refit:
+            prepared, found = _anew(prepared, question)
+            evidence = found.evidence
     on_step(Step(f"{law}: the noise of the input"))
     # the floor knows of the input's noise: what is left far above it, no smoother input explains
     if evidence.noise.input_heard and found.best.rmse <= WRONG * found.selection.floor:

@@ -9,7 +9,6 @@ and nothing is touched.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -20,29 +19,35 @@ from hysteresis_bench.data.spikes import AROUND, FAR, LISTED, MEDIAN, MOST
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.identifiability.combinations import listed
-from hysteresis_bench.signals import Record
+from hysteresis_bench.signals import Dataset, Record
 
 
 @dataclass(frozen=True)
 class Mended:
-    """records : all of them, in their order, those samples brought back to what is left around them;  note : which"""
+    """records : all of them, in their order, those samples of the fitted ones brought back to what is left around them;
+    refit : were there such;  note : which"""
 
     records: tuple[Record, ...]
+    refit: bool
     note: str
 
 
-def without_lone_samples(found: Found, records: Sequence[Record]) -> Mended | None:
-    """None where there are none, or where more than they is left.  records : fitted and held out"""
+def without_lone_samples(found: Found, dataset: Dataset) -> Mended | None:
+    """None where there are none, or where more than they is left. Records that are held out stay as they were
+    measured: the error on them is no error on what a fitted system made of them."""
     system, values = found.thin.fitted(found.best)
-    off = [_off(system, values, record) for record in records]
+    off = [_off(system, values, record) for record in dataset.fitted]
     rest = np.concatenate([left[away == 0.0] for left, away in off])
-    if not any(np.any(away) for _, away in off) or float(np.sqrt(np.mean(rest**2))) > WRONG * found.selection.floor:
+    if float(np.sqrt(np.mean(rest**2))) > WRONG * found.selection.floor:
         return None
-    mended = tuple(_mended(record, away) for record, (_, away) in zip(records, off, strict=True))
-    told = [_words(record, away) for record, (_, away) in zip(records, off, strict=True) if np.any(away)]
-    return Mended(
-        mended, f"Lone samples lie far off what is left around them, and were taken for spikes: {listed(told)}."
-    )
+    known = dict(zip((record.name for record in dataset.fitted), off, strict=True))
+    mended = tuple(_mended(one, known[one.name][1]) if one.name in known else one for one in dataset.records)
+    fitted = [_words(one, away) for one, (_, away) in zip(dataset.fitted, off, strict=True) if np.any(away)]
+    unseen = [_words(one, away) for one in dataset.held_out if np.any(away := _off(system, values, one)[1])]
+    told = [f"were taken for spikes: {listed(fitted)}"] if fitted else []
+    told += [f"count in the error on what was held out: {listed(unseen)}"] if unseen else []
+    note = f"Lone samples lie far off what is left around them, and {', and '.join(told)}."
+    return Mended(mended, bool(fitted), note) if told else None
 
 
 def _off(system: System, values: Array, record: Record) -> tuple[Array, Array]:
