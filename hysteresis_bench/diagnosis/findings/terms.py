@@ -1,6 +1,6 @@
 """What no effect explains, as an equation: a sparse regression of the residual. A description, not physics.
 
-Orthogonal matching pursuit [1] over a library of terms, on a residual made white (`coloured`): the term that
+Orthogonal matching pursuit [1] over a library of terms, on a residual made white (`autocorrelated`): the term that
 explains most joins, as long as an F test with autocorrelated errors, corrected for the number of terms it was
 chosen from, says that it is no accident; then terms that do not help to predict blocks of samples left out are
 dropped. Ours: the pursuit's stopping rule, because samples of a residual are not independent.
@@ -115,7 +115,8 @@ class Term:
 
 @dataclass(frozen=True)
 class FittedTerm:
-    """A term with its coefficient in units; `mean` of its column over the fitted samples is taken off."""
+    """A term with its coefficient in units; `mean` of its column over the fitted samples is taken off; `p` is corrected
+    for the terms that it was chosen from."""
 
     term: Term
     coefficient: float
@@ -193,20 +194,8 @@ def _library(records: Sequence[Record], with_output: bool) -> list[Term]:
     centre, half = float(f"{0.5 * (low + high):.4g}"), 0.5 * (high - low)
     resolution = max(covariates.resolution_of(record.input) for record in records)
     kinds = [
-        "u",
-        "u2",
-        "u3",
-        "rate",
-        "|rate|",
-        "branch",
-        "branch u",
-        "last",
-        "since",
-        "|since|",
-        "time",
-        "cycle",
-        "cycle u",
-    ]
+        "u", "u2", "u3", "rate", "|rate|", "branch", "branch u", "last", "since", "|since|", "time", "cycle", "cycle u",
+    ]  # fmt: skip
     library = [Term(kind, 0.0, centre, resolution) for kind in kinds + (["y", "y2"] if with_output else [])]
     library += [Term("play", float(f"{share * half:.3g}"), centre) for share in PLAYS if half > 0]
     if all(record.timed for record in records):
@@ -218,7 +207,7 @@ def _library(records: Sequence[Record], with_output: bool) -> list[Term]:
 
 
 def _pursue(residuals: Sequence[Array], columns: Sequence[Array]) -> tuple[list[int], dict[int, float]]:
-    """Indices of the terms that join, and the p of each when it joined."""
+    """Indices of the terms that join, and the corrected p of each when it joined."""
     chosen: list[int] = []
     levels: dict[int, float] = {}
     one = autocorrelated.constants(residuals)
@@ -243,10 +232,11 @@ def _pursue(residuals: Sequence[Array], columns: Sequence[Array]) -> tuple[list[
         test = autocorrelated.f_test(
             residuals, [part[:, [index]] for part in columns], [part[:, chosen] for part in columns]
         )
-        if test.p * (columns[0].shape[1] - len(chosen)) > LEVEL:
+        p = test.p * (columns[0].shape[1] - len(chosen))  # one was chosen from so many
+        if p > LEVEL:
             break
         chosen.append(index)
-        levels[index] = test.p
+        levels[index] = p
     return chosen, levels
 
 
@@ -281,14 +271,23 @@ def _share(residuals: Sequence[Array], columns: Sequence[Array], chosen: Sequenc
 
 
 def _fit(residuals: Sequence[Array], columns: Sequence[Array]) -> tuple[Array, Array]:
-    """Least-squares coefficients, and their standard errors with autocorrelated errors."""
+    """Least-squares coefficients, and the standard errors that these have with autocorrelated errors. Of what was made
+    white they would be smaller, and the coefficients off where a column is late by a sample."""
+    from scipy.signal import lfilter
+
     e, one = np.concatenate(list(residuals)), autocorrelated.constants(residuals)
-    design = [np.column_stack([level, part]) for level, part in zip(one, columns, strict=True)]
-    coefficients = np.linalg.lstsq(np.vstack(design), e, rcond=1e-10)[0]
-    left = autocorrelated.split(e - np.vstack(design) @ coefficients, residuals)
+    design = np.vstack([np.column_stack([level, part]) for level, part in zip(one, columns, strict=True)])
+    inverse = np.linalg.pinv(design)
+    coefficients = inverse @ e
+    left = autocorrelated.split(e - design @ coefficients, residuals)
     filter_ = autocorrelated.autoregression(left)
-    white, x = (np.concatenate(autocorrelated.whitened(part, filter_)) for part in (left, design))
-    variance = float(white @ white) / max(white.size - x.shape[1], 1)
-    errors = np.sqrt(variance * np.diag(np.linalg.pinv(x.T @ x)))
+    white = np.concatenate(autocorrelated.whitened(left, filter_))
+    variance = float(white @ white) / max(white.size - coefficients.size, 1)
+    ends = np.cumsum([part.size for part in residuals])[:-1]
+    moved = [  # each coefficient, by every innovation of a record, and by as many before it
+        lfilter([1.0], [1.0, *-filter_], np.hstack([part[:, ::-1], np.zeros_like(part)]))
+        for part in np.split(inverse, ends, axis=1)
+    ]
+    errors = np.sqrt(variance * np.sum(np.hstack(moved) ** 2, axis=1))
     terms = columns[0].shape[1]
     return coefficients[-terms:], errors[-terms:]

@@ -36,6 +36,17 @@ def test_no_terms_on_noise(rho: float) -> None:
     assert claimed <= 3  # of 75
 
 
+def test_the_standard_error_is_that_of_the_coefficient() -> None:
+    """Of a term that moves faster than the noise does: by plain least squares it scatters 4 times as far as told."""
+    fast = Record(TIME, np.sin(0.9 * np.arange(TIME.size)) + SWEEP - 5, SWEEP, units=UNITS)
+    rng, off = np.random.default_rng(43), []
+    for _ in range(40):
+        residual = 0.3 * fast.input**2 + coloured(0.95, rng)
+        square = next(part for part in find_terms([fast], [residual]).terms if part.term.kind == "u2")
+        off.append((square.coefficient - 0.3) / square.standard_error)
+    assert 0.6 < np.std(off) < 1.4
+
+
 def lagged(record: Record) -> Array:
     return 0.5 * (lsim(([1.0], [0.07, 1.0]), record.input - record.input[0], record.time)[1] - record.input)
 
