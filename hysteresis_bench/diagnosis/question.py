@@ -7,12 +7,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-import numpy as np
-
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.checks.asked import around_faults, asked_faults, parameter_faults
+from hysteresis_bench.fit.checks.faulty_records import still
 from hysteresis_bench.fit.checks.wanted_units import in_wanted_units
 from hysteresis_bench.fit.preparation import Preparation
 from hysteresis_bench.fit.settling import open_loops
@@ -112,8 +111,8 @@ def record_faults(records: Sequence[Record], purpose: str) -> list[str]:
     """A sentence on every record that tells too little; purpose : a verb, what nothing is left to do with it."""
     faults = []
     for record in records:
-        if np.ptp(record.measured) == 0:
-            faults.append(f"record {record.name}: the output is constant; there is nothing to {purpose}.")
+        if words := still(record, purpose):
+            faults.append(words)
         elif record.measured.size < FEWEST_SAMPLES:
             faults.append(
                 f"record {record.name}: {record.measured.size} samples are too few; {FEWEST_SAMPLES} are needed."

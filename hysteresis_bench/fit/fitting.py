@@ -22,7 +22,7 @@ from hysteresis_bench.fit.checks.agreement import agreement_of
 from hysteresis_bench.fit.checks.asked import asked_faults
 from hysteresis_bench.fit.checks.behaviour import broken_promises
 from hysteresis_bench.fit.checks.edges import at_edges, edges_reached
-from hysteresis_bench.fit.checks.faulty_records import without_faults
+from hysteresis_bench.fit.checks.faulty_records import still, without_faults
 from hysteresis_bench.fit.checks.settled_periods import SAID, settled_periods, unsettled
 from hysteresis_bench.fit.checks.wanted_units import in_wanted_units
 from hysteresis_bench.fit.identifiability.analysis import Identifiability, analyse_others
@@ -210,8 +210,7 @@ def _system(
 def _check(system: System, dataset: Dataset, settle: bool) -> None:
     reasons = {name: effect.inapplicable(dataset.fitted) for name, effect in system.effects}
     faults = [f"effect {name}: {reason}" for name, reason in reasons.items() if reason]
-    constant = [record.name for record in dataset.fitted if np.ptp(record.measured) == 0]
-    faults += [f"record {name}: the output is constant; there is nothing to identify." for name in constant]
+    faults += [words for record in dataset.fitted if (words := still(record, "identify"))]
     faults += open_loops(dataset.records) if settle else []
     samples = sum(record.measured.size for record in dataset.fitted)
     if samples <= len(system.parameters):

@@ -5,6 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hysteresis_bench import compare
+from hysteresis_bench import diagnose as diagnose_data
+from hysteresis_bench import fit as fit_records
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
@@ -34,6 +37,14 @@ def part_of(dataset, change=lambda record: record, step=1):
 def claims(found):
     """Each adopted effect with those that would do as well."""
     return [{name, *(one.rival for one in found.ties if one.effect == name)} for name in found.effects]
+
+
+@pytest.mark.parametrize("ask", [fit_records, diagnose_data, compare])
+def test_an_input_that_never_moves_is_refused(ask):
+    moving = first(make(3, "bouc-wen", hidden=()).dataset)
+    still = replace(moving, input=np.ones_like(moving.input))
+    with pytest.raises(UserError, match="record only: the input is constant; there is nothing to"):
+        ask(Dataset((still,)), *(() if ask is compare else ["bouc-wen"]))
 
 
 def test_one_record_is_split_in_time():

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Collection, Sequence
 
+import numpy as np
+
 from hysteresis_bench import registry
 from hysteresis_bench.data.hidden_turns import hidden_turns_in_words, parted_at_hidden_turns
 from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
@@ -19,6 +21,13 @@ def without_faults(dataset: Dataset, effects: Collection[str] = (registry.RECORD
     jump; and a step for half of a spike."""
     sound = parted_at_hidden_turns(parted_where_stuck(dataset))
     return without_spikes(parted_at_jumps(sound) if registry.RECORD_OFFSET in effects else sound)
+
+
+def still(record: Record, purpose: str) -> str:
+    """A sentence on a record whose input or scored output never moves; empty where both do.  purpose : a verb"""
+    moved = {"input": np.ptp(record.input), "output": np.ptp(record.measured)}
+    constant = next((column for column, by in moved.items() if not by > 0.0), "")
+    return constant and f"record {record.name}: the {constant} is constant; there is nothing to {purpose}."
 
 
 def jumps_told(record: Record) -> str:
