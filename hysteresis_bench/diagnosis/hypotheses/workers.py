@@ -30,7 +30,8 @@ WORDS = {
 
 
 class Workers(Generic[Answer]):
-    """Runs methods of a fitter, in order of the questions; in this process where there is one job, or no fork.
+    """Runs methods of a fitter, in order of the questions; in this process where there is one job, or no fork, and
+    after the end of the context.
 
     Answer : what the methods return;  on_step : told of every answer
     kept : asked for (fitter, method's name, *arguments) before anything is run, and given every answer as it comes
@@ -39,6 +40,7 @@ class Workers(Generic[Answer]):
     def __init__(self, fitter: Any, jobs: int, on_step: OnStep = quiet, kept: Kept | None = None) -> None:
         self._on_step, self._kept = on_step, kept
         self._fitter = fitter
+        self._others = {*multiprocessing.active_children()}
         self._pool: ProcessPoolExecutor | None = None
         if jobs > 1 and "fork" in multiprocessing.get_all_start_methods():
             context = multiprocessing.get_context("fork")
@@ -52,10 +54,11 @@ class Workers(Generic[Answer]):
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         if isinstance(error, KeyboardInterrupt):  # what is being fitted would be waited for
-            for child in multiprocessing.active_children():
+            for child in {*multiprocessing.active_children()} - self._others:
                 child.terminate()
         if self._pool:
             self._pool.shutdown(cancel_futures=True)
+            self._pool = None
 
     def map(self, questions: Sequence[tuple[Any, ...]]) -> list[Answer]:
         """questions : (method's name, *arguments)"""
