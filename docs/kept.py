@@ -112,14 +112,15 @@ def closings(*studies: str) -> str:
     return table(["study", "model", "effects adopted", "held out before", "held out after"], rows)
 
 
-def cases() -> pd.DataFrame:
-    """The finished cases of the study of diagnosis; `known` where the hysteresis is a model's own."""
-    folder = RESULTS / "closing_the_loop"
+def cases(study_of_diagnosis: str = "closing_the_loop") -> pd.DataFrame:
+    """The finished cases of a study of diagnosis; `known` where the hysteresis is a model's own."""
+    folder = RESULTS / study_of_diagnosis
     study = tomllib.loads((folder / "study.toml").read_text(encoding="utf-8"))
     rigs = {bench["name"]: bench["rig"] for bench in study["bench"]}
     rows = pd.read_csv(folder / "cases.csv", keep_default_na=False, na_values={"fresh": [""], "after": [""]})
     rows = rows[rows["status"] == "done"]
-    return rows.assign(known=rows["bench"].map(rigs) == MODELS_OWN_RIG, right=rows["right"].astype(str) == "True")
+    judged = {name: rows[name].astype(str) == "True" for name in ("right", "right_by_family")}
+    return rows.assign(known=rows["bench"].map(rigs) == MODELS_OWN_RIG, **judged)
 
 
 def named(known: bool) -> str:
