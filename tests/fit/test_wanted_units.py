@@ -90,6 +90,14 @@ def test_kelvin_and_fahrenheit_are_degrees_celsius():
     assert [one.value for one in gains] == pytest.approx(3 * [0.01], rel=0.02)
 
 
+def test_columns_that_are_in_any_unit_are_told_nothing_of_and_keep_theirs(rod):
+    """A diagnosis asks every effect what it wants: a sentence on each column would hide all others."""
+    milli = rewritten(rod, input=(1e3, "mA"))
+    found = in_wanted_units(milli, [registry.effect("temperature-sensitivity")], "temperature-sensitivity's")
+    assert found.notes == milli.notes
+    assert found.units == milli.units
+
+
 def test_a_temperature_in_volts_is_not_in_question():
     volts, kelvin = (warmed(unit, lambda t: t) for unit in ("V", "K"))
     question = Question("bouc-wen")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeAlias
 
@@ -25,16 +25,17 @@ def in_wanted_units(dataset: Dataset, parts: Iterable[Declared], whose: str) -> 
     wanted = {column: unit for part in parts for column, unit in _wanted(part, dataset.records).items()}
     if not wanted:
         return dataset
-    stated = dataset.map(lambda record: replace(record, units=_stated(record)))
-    ready = in_units(stated, wanted, "the records", whose)
-    return ready.map(lambda record: replace(record, units={**UNITLESS, **record.units}))
+    asked = dataset.map(lambda record: replace(record, units=_stated(record, wanted)))
+    ready = in_units(asked, wanted, "the records", whose)
+    kept = {record.name: {**UNITLESS, **record.units} for record in dataset.records}  # of columns that are in any unit
+    return ready.map(lambda record: replace(record, units={**kept[record.name], **record.units}))
 
 
 def unlike_wanted(part: Declared, records: Sequence[Record]) -> str:
     """Why a law or an effect cannot take the records, where a column is in another unit than it wants; else ""."""
     for column, unit in _wanted(part, records).items():
         for record in records:
-            if (own := _stated(record).get(column)) is not None and not same_unit(own, unit):
+            if (own := _stated(record, [column]).get(column)) is not None and not same_unit(own, unit):
                 return f"it takes the {column} in {unit}, and the records have it in {own}"
     return ""
 
@@ -45,5 +46,5 @@ def _wanted(part: Declared, records: Sequence[Record]) -> Mapping[str, str]:
     return {column: unit for column, unit in part.wants.items() if timed or column != "time"}
 
 
-def _stated(record: Record) -> Mapping[str, str]:
-    return {column: unit for column, unit in record.units.items() if unit != NONE}
+def _stated(record: Record, columns: Collection[str]) -> Mapping[str, str]:
+    return {column: unit for column, unit in record.units.items() if unit != NONE and column in columns}
