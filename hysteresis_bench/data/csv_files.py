@@ -6,7 +6,7 @@ A text that begins with = + - or @ and is no number gets an apostrophe before it
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from pathlib import Path
 
 import pandas as pd
@@ -34,9 +34,9 @@ def is_number(text: str) -> bool:
     return True
 
 
-def read_table(path: Path) -> pd.DataFrame:
-    """A table that `write_table` wrote."""
-    return _with_texts(pd.read_csv(path), unguarded)
+def read_table(path: Path, texts: Collection[str] = ()) -> pd.DataFrame:
+    """A table that `write_table` wrote.  texts : columns that are none of numbers, though all of a cell may look so"""
+    return _with_texts(pd.read_csv(path, dtype=dict.fromkeys(texts, str)), unguarded)
 
 
 def write_table(path: Path, table: pd.DataFrame, *, digits: int | None = None, index: bool = False) -> None:

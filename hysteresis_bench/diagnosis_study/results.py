@@ -27,6 +27,9 @@ LISTED = 3
 ADDED = ("family", "sure", "ties", "told", "settled", "then")
 """Fields that older files lack."""
 
+TEXTS = tuple(field.name for field in fields(Case) if field.type == "str")
+"""Fields whose cells may look like numbers, such as the only probability of a case."""
+
 
 def read_cases(folder: Path) -> list[Case]:
     """All finished cases, by bench, then by number; told from cases.csv where the folder of their files is not kept.
@@ -36,7 +39,7 @@ def read_cases(folder: Path) -> list[Case]:
     files = sorted((folder / FOLDER).glob("*.json"))
     found = [_read(file, lambda path: [_case(json.loads(path.read_text(encoding="utf-8")))]) for file in files]
     if not (folder / FOLDER).is_dir() and (folder / CASES).is_file():
-        found = [_read(folder / CASES, lambda path: [_case(row) for row in read_table(path).to_dict("records")])]
+        found = [_read(folder / CASES, lambda path: [_case(row) for row in read_table(path, TEXTS).to_dict("records")])]
     return sorted((case for cases in found for case in cases), key=lambda case: (case.bench, case.number))
 
 
