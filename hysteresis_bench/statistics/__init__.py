@@ -6,6 +6,7 @@ within it is a repeat. Where there is one instance, its trials are the blocks, a
 """
 
 from hysteresis_bench.statistics.comparison import (
+    AT_ODDS,
     CANNOT_TELL,
     SAME,
     TIE,
@@ -14,14 +15,16 @@ from hysteresis_bench.statistics.comparison import (
     Sample,
     compare,
     compare_pairs,
+    every_pair,
 )
-from hysteresis_bench.statistics.description import ecdf, expected_running_time, quantile, wilson
+from hysteresis_bench.statistics.description import clopper_pearson, ecdf, expected_running_time, quantile, wilson
 from hysteresis_bench.statistics.effect_size import a12, a12_interval, magnitude, mean_a12
 from hysteresis_bench.statistics.equivalence import REGION, Practical, practical
-from hysteresis_bench.statistics.ranks import ENOUGH, LEVEL, Friedman, friedman, holm, wilcoxon
+from hysteresis_bench.statistics.ranks import ENOUGH, LEVEL, Friedman, SignedRank, friedman, holm, signed_rank, wilcoxon
 from hysteresis_bench.statistics.resampling import median_interval, running_time_interval
 
 __all__ = [
+    "AT_ODDS",
     "CANNOT_TELL",
     "ENOUGH",
     "LEVEL",
@@ -33,11 +36,14 @@ __all__ = [
     "Friedman",
     "Practical",
     "Sample",
+    "SignedRank",
     "a12",
     "a12_interval",
+    "clopper_pearson",
     "compare",
     "compare_pairs",
     "ecdf",
+    "every_pair",
     "expected_running_time",
     "friedman",
     "holm",
@@ -47,6 +53,7 @@ __all__ = [
     "practical",
     "quantile",
     "running_time_interval",
+    "signed_rank",
     "wilcoxon",
     "wilson",
 ]

@@ -2,6 +2,7 @@
 
 [1] E. B. Wilson, J. Am. Stat. Assoc. 22 (1927) 209.
 [2] N. Hansen et al., COCO, Optim. Methods Softw. 36 (2021) 114 (ERT, ECDF).
+[3] C. J. Clopper, E. S. Pearson, Biometrika 26 (1934) 404.
 """
 
 from __future__ import annotations
@@ -35,6 +36,18 @@ def wilson(successes: float, trials: int, z: float = 1.959963984540054) -> tuple
     centre = (rate + spread / 2.0) / (1.0 + spread)
     half = z * np.sqrt(rate * (1.0 - rate) / trials + spread / (4.0 * trials)) / (1.0 + spread)
     return max(0.0, float(centre - half)), min(1.0, float(centre + half))
+
+
+def clopper_pearson(successes: float, trials: float, level: float = 0.95) -> tuple[float, float]:
+    """[3] Interval of a success rate that holds it at least as often as the level says; (0, 1) without trials.
+
+    successes, trials : need not be whole, where trials are as much worth as so many independent ones
+    """
+    from scipy.special import betaincinv
+
+    tail, failures = 0.5 * (1.0 - level), max(trials - successes, 0.0)
+    low = float(betaincinv(successes, failures + 1.0, tail)) if successes > 0.0 else 0.0
+    return low, float(betaincinv(successes + 1.0, failures, 1.0 - tail)) if failures > 0.0 else 1.0
 
 
 def expected_running_time(to_target: ArrayLike, spent: ArrayLike) -> float:

@@ -1,6 +1,10 @@
 """How often the one is better than the other: Vargha and Delaney's A12, with an interval.
 
 [1] A. Vargha, H. D. Delaney, J. Educ. Behav. Stat. 25 (2000) 101.  Cliff's delta is 2 A12 - 1.
+[2] E. L. Korn, B. I. Graubard, Surv. Methodol. 24 (1998) 193: Clopper and Pearson's interval with an effective number,
+    for rates near 0 or 1 over blocks.
+[3] E. R. DeLong, D. M. DeLong, D. L. Clarke-Pearson, Biometrics 44 (1988) 837.
+[4] Z. W. Birnbaum, O. M. Klose, Ann. Math. Stat. 28 (1957) 933.
 """
 
 from __future__ import annotations
@@ -11,10 +15,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.statistics.resampling import counts, percentiles
-
-AT_ONCE = 100_000
-"""Of counts that are summed together: as many as stay in a processor's cache."""
+from hysteresis_bench.statistics.description import clopper_pearson
 
 
 def magnitude(a12: float) -> str:
@@ -66,30 +67,37 @@ def mean_a12(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.0) -
 
 
 def a12_interval(ours: Sequence[Array], theirs: Sequence[Array], tie: float = 0.0) -> tuple[float, float, float]:
-    """`mean_a12` and its 95 % bootstrap interval. Resampled are the instances; where there is one, the trials of either
-    side."""
+    """`mean_a12` and its 95 % interval, which knows that A12 ends at 0 and 1: of as many independent trials of a yes or
+    no as the values are worth [2]. It is wide where one side always wins: (0.77, 1) of 14 trials or instances."""
     middle = mean_a12(ours, theirs, tie)
     if not sum(map(len, ours)) or not sum(map(len, theirs)):
         return 0.5, 0.0, 1.0
-    if len(ours) == 1:
-        return middle, *percentiles(_resampled(ours[0], theirs[0], tie))
+    worth = _of_trials(ours[0], theirs[0], tie) if len(ours) == 1 else _of_instances(ours, theirs, tie)
+    low, high = clopper_pearson(middle * worth, worth)
+    return middle, min(low, middle), max(high, middle)
+
+
+def _of_instances(ours: Sequence[Array], theirs: Sequence[Array], tie: float) -> float:
+    """What the instances are worth: their number where A12 is 0 or 1 on each, more where they are alike."""
     each = np.array([a12(*pair, tie) for pair in zip(ours, theirs, strict=True)])
-    return middle, *percentiles(counts(each.size) @ each / each.size)
+    return each.size / _spread(each)
 
 
-def _resampled(ours: Array, theirs: Array, tie: float) -> Array:
-    """(resamples,) A12. In the order of their results, one of ours loses to their first ones, is even with the next and
-    beats the last ones: sums of how often a resample has each, in place of one for every pair."""
-    order = np.argsort(theirs, kind="stable")
+def _of_trials(ours: Array, theirs: Array, tie: float) -> float:
+    """What the trials of one instance are worth. [3] The variance is that of either side's shares of the other side
+    over its trials, and [4] never more than that of the smaller side's trials alone."""
     lost, even = lost_and_even(ours, theirs, tie)
-    n, m = ours.size, theirs.size
-    mine, others = counts(n), counts(m, 1)
-    resampled = np.empty(len(mine))
-    below = np.zeros((-(-len(mine) // max(1, len(mine) * m // AT_ONCE)), m + 1))
-    for begun in range(0, len(mine), len(below)):
-        part = slice(begun, begun + len(below))
-        summed = below[: len(mine[part])]
-        np.cumsum(np.take(others[part], order, axis=1), axis=1, out=summed[:, 1:])
-        missed = np.take(summed, lost, axis=1) + np.take(summed, lost + even, axis=1)
-        resampled[part] = n * m - 0.5 * np.einsum("ri,ri->r", mine[part], missed)
-    return resampled / (n * m)
+    beaten, same = lost_and_even(theirs, ours, tie)
+    spreads = (_spread((lost + 0.5 * even) / theirs.size), _spread((beaten + 0.5 * same) / ours.size))
+    return max(min(ours.size, theirs.size), 1.0 / (spreads[0] / ours.size + spreads[1] / theirs.size))
+
+
+def _spread(shares: Array) -> float:
+    """The variance over that of a yes or no of the same mean, in (0, 1]; shares : (blocks,) in [0, 1]
+
+    Ours: half a share of 0 and half one of 1 stand beside those found, as a few that are alike do not prove that there
+    is no other.
+    """
+    count = shares.size + 1.0
+    mean, square = (np.sum(shares) + 0.5) / count, (np.sum(shares**2) + 0.5) / count
+    return float((square - mean**2) / (mean * (1.0 - mean)))

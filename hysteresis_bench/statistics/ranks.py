@@ -41,8 +41,21 @@ def differences(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> Array:
     return whole
 
 
-def wilcoxon(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
-    """[2] Two-sided signed-rank p of paired values, (blocks,) each; zero differences after Pratt.
+@dataclass(frozen=True)
+class SignedRank:
+    """p : two-sided, corrected where several were tested;  favours : 1 ours is lower by its ranks, -1 theirs, 0 none"""
+
+    p: float
+    favours: int
+
+    @property
+    def mirrored(self) -> SignedRank:
+        """Theirs against ours."""
+        return SignedRank(self.p, -self.favours)
+
+
+def signed_rank(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> SignedRank:
+    """[2] Signed-rank test of paired values, (blocks,) each; zero differences after Pratt.
 
     From all signs that the differences might have had: where most are 0, a normal distribution is far off (it would
     call equal optimizers different in 12 % of studies where 4 of 20 instances differ). Beyond EXACT blocks it is close.
@@ -51,11 +64,18 @@ def wilcoxon(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
 
     found = differences(ours, theirs, tie)
     if not np.any(found):
-        return 1.0
-    if found.size > EXACT:
-        return float(stats.wilcoxon(found, zero_method="pratt", method="asymptotic").pvalue)
+        return SignedRank(1.0, 0)
     doubled = np.rint(2.0 * stats.rankdata(np.abs(found))).astype(int)  # ties have half ranks
-    return _two_sided(doubled[found != 0.0], int(doubled[found > 0.0].sum()))
+    positive, negative = int(doubled[found > 0.0].sum()), int(doubled[found < 0.0].sum())
+    favours = (negative > positive) - (negative < positive)
+    if found.size > EXACT:
+        return SignedRank(float(stats.wilcoxon(found, zero_method="pratt", method="asymptotic").pvalue), favours)
+    return SignedRank(_two_sided(doubled[found != 0.0], positive), favours)
+
+
+def wilcoxon(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> float:
+    """[2] The p of `signed_rank`."""
+    return signed_rank(ours, theirs, tie).p
 
 
 def _two_sided(ranks: Array, positive: int) -> float:

@@ -19,9 +19,9 @@ LEVEL = 0.95
 
 
 @lru_cache(maxsize=64)
-def counts(blocks: int, stream: int = 0) -> Array:
-    """(RESAMPLES, blocks): how often every resample has each block; always the same ones. stream : another draw"""
-    drawn = np.random.default_rng([blocks, stream]).integers(blocks, size=(RESAMPLES, blocks))
+def counts(blocks: int) -> Array:
+    """(RESAMPLES, blocks): how often every resample has each block; always the same ones."""
+    drawn = np.random.default_rng([blocks, 0]).integers(blocks, size=(RESAMPLES, blocks))
     found: Array = np.apply_along_axis(np.bincount, 1, drawn, minlength=blocks).astype(float)
     return found
 

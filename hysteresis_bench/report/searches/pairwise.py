@@ -47,21 +47,24 @@ def pairwise(folder: Path, name: str, problem: Problem) -> Picture | None:
 
     caption = f"{problem.name}. How often the row’s optimizer has a lower fitness than the column’s (A12) over "
     caption += f"{problem.counted}; blue: the row is better. Bold: the signed-rank test tells them apart "
-    caption += f"(p < {statistics.LEVEL} after Holm’s correction over all pairs)."
+    caption += f"and favours the same one (p < {statistics.LEVEL} after Holm’s correction over all pairs)."
     side = 1.6 + 0.3 * len(labels)
     alt = f"Everybody against everybody on {problem.name}; best median first: {', '.join(labels)}."
     return picture(folder, name, (side + 0.8, side), alt=alt, caption=caption, draw=draw)
 
 
 def matrices(problem: Problem, labels: Sequence[str]) -> tuple[Array, Array]:
-    """A12 of row against column, NaN on the diagonal, and whether the two are told apart; (labels, labels) each."""
+    """A12 of row against column, NaN on the diagonal, and whether the two are told apart; (labels, labels) each.
+
+    Corrected over all pairs of the problem, also of those that are not shown: the shown ones are the best of all.
+    """
     samples = [problem.sample(label) for label in labels]
-    pairs = list(combinations(range(len(labels)), 2))
-    p = statistics.holm([statistics.wilcoxon(samples[i].blocks, samples[j].blocks, statistics.TIE) for i, j in pairs])
     shares = np.full((len(labels), len(labels)), np.nan)
     apart = np.zeros(shares.shape, dtype=bool)
-    for (i, j), found in zip(pairs, p, strict=True):
+    for i, j in combinations(range(len(labels)), 2):
         shares[i, j] = statistics.mean_a12(samples[i].instances, samples[j].instances, statistics.TIE)
         shares[j, i] = 1.0 - shares[i, j]
-        apart[i, j] = apart[j, i] = found < statistics.LEVEL
+        test = problem.tested[labels[i], labels[j]]
+        found = statistics.Comparison(test.p, shares[i, j], favours=test.favours)
+        apart[i, j] = apart[j, i] = found.significant and not found.at_odds
     return shares, apart

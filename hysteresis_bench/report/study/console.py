@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from hysteresis_bench import statistics
 from hysteresis_bench.report.shared.text import NONE, number, percent, probability, seconds, whole
 from hysteresis_bench.report.study import run
+from hysteresis_bench.report.study.optimizers import at_odds
 from hysteresis_bench.report.trials.summary import problems, summary_of
 from hysteresis_bench.study.results import Results
 
@@ -28,7 +29,10 @@ def print_summary(results: Results, console: Console) -> None:
         if not (enough := problem.blocks >= statistics.ENOUGH):
             table.caption = f"against each other: {statistics.TOO_FEW} ({statistics.ENOUGH} are needed)"
         table.add_column("against best" if enough else "", no_wrap=True)
-        for _, row in summary[summary["problem"] == problem.name].iterrows():
+        rows = summary[summary["problem"] == problem.name]
+        if odd := at_odds(rows).strip():
+            table.caption = odd
+        for _, row in rows.iterrows():
             p = probability(row["p_best"])
             verdict = row["verdict_best"]
             table.add_row(
@@ -49,6 +53,6 @@ def print_summary(results: Results, console: Console) -> None:
 
 def _short(verdict: str, p: str) -> str:
     """A verdict that fits its column; the report says how large the effect is."""
-    if verdict == statistics.SAME:
+    if verdict in (statistics.SAME, statistics.AT_ODDS):
         return "cannot tell apart"
     return verdict if p == NONE else f"{verdict.partition(' (')[0]}, p {p}"

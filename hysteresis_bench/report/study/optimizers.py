@@ -35,9 +35,11 @@ def at_equal_evaluations(
     """Who won, and every optimizer in a table. pictures : of all trials, of problems that have none elsewhere"""
     known = any(reference in problem.labels for problem in here)
     others = f"with the reference, {reference}, and with the best" if known else "with the best"
+    beforehand = "The reference was named beforehand, p is corrected over the others; " if known else ""
     how = (
-        f"{SUCCESS} Verdicts compare fitness, each optimizer {others} by median only. Every other number of a row is "
-        "in summary.csv."
+        f"{SUCCESS} Verdicts compare fitness, each optimizer {others} by median only. {beforehand}"
+        f"{'the' if known else 'The'} best is chosen by these same trials, p is corrected over all pairs. Every other "
+        "number of a row is in summary.csv."
     )
     tables = [table(problem, summary) for problem in here]
     blocks: list[Block] = [Bullets(winners(here, summary)), *([Figures(pictures)] if pictures else []), how, *tables]
@@ -91,7 +93,19 @@ def table(problem: Problem, summary: pd.DataFrame) -> Table:
     note = f"Deterministic, counted once an instance: {listed(same, len(same))}. " if same else ""
     rows = list(zip(*columns.values(), strict=True))
     title = f"{problem.name}: fitness over {problem.counted}"
-    return Table(title, list(columns), rows, note=f"{note}{_friedman(problem)}")
+    return Table(title, list(columns), rows, note=f"{note}{at_odds(here)}{_friedman(problem)}")
+
+
+def at_odds(here: pd.DataFrame) -> str:
+    """A sentence on verdicts that nobody can give as the test and A12 disagree, with a space behind it; empty without
+    one. here : the rows of one problem"""
+    found = {
+        other: list(here["optimizer"][here[f"verdict_{other}"] == statistics.AT_ODDS])
+        for other in ("reference", "best")
+    }
+    against = [f"of {listed(names, len(names))} against the {other}" for other, names in found.items() if names]
+    why = "the signed-rank test favours one and A12 does not, as where many small wins stand against a few large losses"
+    return f"We cannot tell which is better {listed(against)}: {why}. " if against else ""
 
 
 def _relative_rms(row: pd.Series) -> str:
@@ -110,7 +124,8 @@ def _success(row: pd.Series) -> str:
 
 def _verdict(words: str) -> Cell:
     tone = "good" if words.startswith("better") else "bad" if words.startswith("worse") else "quiet"
-    return Cell("cannot tell" if words == statistics.SAME else words.removesuffix(" effect)").replace(" (", ", "), tone)
+    nothing = words in (statistics.SAME, statistics.AT_ODDS)
+    return Cell("cannot tell" if nothing else words.removesuffix(" effect)").replace(" (", ", "), tone)
 
 
 def _a12(row: pd.Series) -> str:

@@ -7,7 +7,7 @@ the blocks, and what is found holds in this instance alone.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -35,6 +35,7 @@ class Problem:
     labels : optimizers in the order of the study file, those without a trial left out
     rows : of each the trials, ordered by instance and trial
     best : the lowest fitness that any trial of the study found, whatever its budget, by instance
+    anytime : by optimizer, whether it searches alike whatever the budget; None where nobody knows
     """
 
     name: str
@@ -43,6 +44,7 @@ class Problem:
     traces: Mapping[tuple[str, int, int], tuple[Array, Array]]
     reference: str
     best: Mapping[int, float]
+    anytime: Mapping[str, bool | None] = field(default_factory=dict)
 
     @cached_property
     def trials(self) -> list[Key]:
@@ -208,21 +210,29 @@ class Problem:
     def winner(self) -> str:
         return self.ranked[0]
 
-    def against(self, label: str) -> dict[str, statistics.Comparison]:
-        """Fitness of every other optimizer against this one, Holm-corrected; empty without it."""
-        if label not in self.labels:
-            return {}
-        others = [other for other in self.labels if other != label]
-        samples = [self.sample(other) for other in others]
-        return dict(zip(others, statistics.compare(samples, self.sample(label)), strict=True))
-
     @cached_property
     def against_reference(self) -> dict[str, statistics.Comparison]:
-        return self.against(self.reference)
+        """Fitness of every other optimizer against the reference, which the study names beforehand: Holm-corrected over
+        the others. Empty without it."""
+        if self.reference not in self.labels:
+            return {}
+        others = [other for other in self.labels if other != self.reference]
+        samples = [self.sample(other) for other in others]
+        return dict(zip(others, statistics.compare(samples, self.sample(self.reference)), strict=True))
 
     @cached_property
     def against_winner(self) -> dict[str, statistics.Comparison]:
-        return self.against(self.winner)
+        """Fitness of every other optimizer against the winner, which these same trials chose: Holm-corrected over all
+        pairs, as any of them might have been asked."""
+        others = [other for other in self.labels if other != self.winner]
+        pairs = [(self.sample(other), self.sample(self.winner)) for other in others]
+        tested = [self.tested[other, self.winner] for other in others]
+        return dict(zip(others, statistics.compare_pairs(pairs, tested=tested), strict=True))
+
+    @cached_property
+    def tested(self) -> dict[tuple[str, str], statistics.SignedRank]:
+        """Everybody against everybody, Holm-corrected over all pairs."""
+        return statistics.every_pair({label: self.sample(label) for label in self.labels})
 
     @cached_property
     def friedman(self) -> statistics.Friedman:

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench import statistics
+from hysteresis_bench.report.trials.anytime import anytime
 from hysteresis_bench.report.trials.best_known import NEAR, best_known
 from hysteresis_bench.report.trials.metrics import TO_SUCCESS
 from hysteresis_bench.report.trials.problem import Problem
@@ -22,6 +23,7 @@ def problems(results: Results, budget: int | None = None, any_budget: bool = Fal
     """
     mine = budget or results.study.budget
     other = {spec.name for spec in results.study.optimizer if results.study.budget_of(spec) != mine}
+    known = anytime(results)
     found = []
     for spec in results.study.problem:
         here = _with_stages(results, spec.name)
@@ -34,7 +36,7 @@ def problems(results: Results, budget: int | None = None, any_budget: bool = Fal
         }
         if rows:
             reference = _reference(results.study, labels)
-            found.append(Problem(spec.name, list(rows), rows, traces, reference, best_known(here)))
+            found.append(Problem(spec.name, list(rows), rows, traces, reference, best_known(here), known))
     return found
 
 

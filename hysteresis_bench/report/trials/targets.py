@@ -12,6 +12,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.shared.blocks import Cell, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import number, percent, whole
+from hysteresis_bench.report.trials.anytime import note, signed
 from hysteresis_bench.report.trials.problem import Problem
 
 EXCESSES = (0.001, 0.01, 0.03, 0.1)
@@ -39,7 +40,8 @@ def _table(problem: Problem, budget: int) -> Table:
     rows: list[list[str | Cell]] = []
     for label in problem.ranked:
         ratios = problem.ratios(label)
-        row: list[str | Cell] = [label, *(percent(np.mean(ratios <= 1.0 + excess), 3) for excess in EXCESSES)]
+        name = signed(label, problem.anytime) if problem.traces else label
+        row: list[str | Cell] = [name, *(percent(np.mean(ratios <= 1.0 + excess), 3) for excess in EXCESSES)]
         if problem.traces:
             row += [whole(_running_time(problem, label, excess)) for excess in EXCESSES[1:]]
             row += [number(_after(problem, label, round(share * budget)), 4, "none yet") for share in SHARES]
@@ -49,7 +51,8 @@ def _table(problem: Problem, budget: int) -> Table:
     if problem.traces:
         header += [f"ERT to {percent(excess)}" for excess in EXCESSES[1:]]
         header += [*(f"At {percent(share)} of the budget" for share in SHARES), "Area over curve"]
-    return Table(f"{problem.name}: other targets and budgets", header, rows)
+    told = note(problem.ranked, problem.anytime) if problem.traces else ""
+    return Table(f"{problem.name}: other targets and budgets", header, rows, told)
 
 
 def _running_time(problem: Problem, label: str, excess: float) -> float:
