@@ -140,7 +140,7 @@ def in_units(dataset: Dataset, wanted: Mapping[str, str], where: str, whose: str
         taken = ", ".join(f"{name} as {unit}" for name, unit in unstated.items())
         notes.append(f"{where}: no unit is stated; taken as {whose}: {taken}.")
     for name, unit in unknown.items():
-        kept = f"{name} [{unit}] stays as it is, because {whose} unit of {name} is not stated."
+        kept = f"{name} is read in {unit}, without conversion: {whose} unit of {name} is not stated."
         if not any(note.endswith(kept) for note in dataset.notes):
             notes.append(f"{where}: {kept}")
     return replace(dataset, records=tuple(records), notes=(*dataset.notes, *dict.fromkeys(notes)))

@@ -34,7 +34,8 @@ def notes(chain: Chain) -> list[str]:
     """What the file is, a sentence each: for its head, and for the terminal."""
     fitted = chain.fitted
     effects = f" with {', '.join(fitted.effects)}" if fitted.effects else ""
-    units = ", ".join(f"{name} in {fitted.units[name]}" for name in ("time", "input", "output"))
+    stated = ((name, fitted.units[name]) for name in ("time", "input", "output"))
+    units = ", ".join(f"{name} without a unit" if unit == "1" else f"{name} in {unit}" for name, unit in stated)
     said = [
         f"{fitted.model}{effects}, exported by hysteresis-bench. {units}.",
         "step(model, time, input) takes one sample and gives the output; time must rise from call to call.",

@@ -68,7 +68,7 @@ def test_a_unit_where_the_model_has_none_is_refused_with_what_to_do():
 
 def test_a_column_that_the_model_does_not_know_is_told_once():
     found = in_model_units({"time": "s", "input": "V", "output": "um", "load": "N"}, load=np.ones(3))
-    said = "new.csv: load [N] stays as it is, because the model's unit of load is not stated."
+    said = "new.csv: load is read in N, without conversion: the model's unit of load is not stated."
     assert found.notes == (said,)
     assert in_units(found, MODEL, "the records", "the model's").notes == (said,)
 

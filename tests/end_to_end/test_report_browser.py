@@ -7,7 +7,7 @@ from html import unescape
 
 import pytest
 
-from hysteresis_bench.report.shared.blocks import Table
+from hysteresis_bench.report.shared.blocks import Details, Table
 from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.study import write_report
 from tests.synthetic_study import write_results
@@ -52,6 +52,35 @@ def test_the_page_never_scrolls_sideways(page, tmp_path, width):
     wide, client = (int(re.search(rf'data-{name}="(\d+)"', dom)[1]) for name in ("wide", "client"))
     assert 0 < client <= width
     assert wide <= client
+
+
+def asked(page, tmp_path, script):
+    """What a script in a frame of 1280 pixels answers; `w` is the page's window, `d` its document."""
+    frame = tmp_path / "asking.html"
+    frame.write_text(
+        f'<iframe id="f" src="{page.as_uri()}" style="width:1280px;height:900px;border:0"></iframe><script>onload=()=>'
+        "{const w=document.getElementById('f').contentWindow,d=w.document;"
+        f"document.body.dataset.answer=({script})}}</script>",
+        encoding="utf-8",
+    )
+    dom = browse(frame, tmp_path / "profile", "--dump-dom", "--allow-file-access-from-files")
+    return re.search(r'data-answer="([^"]*)"', dom)[1]
+
+
+@needs_browser
+def test_what_is_folded_away_is_open_while_the_page_is_printed(tmp_path):
+    shown = Page("p", "k", [Section("s", "S", [Details("Show the text", ["A line."])])]).write(tmp_path / "page.html")
+    opened = "['beforeprint','afterprint'].map(e=>(w.dispatchEvent(new w.Event(e)),d.querySelector('details').open))"
+    assert asked(shown, tmp_path, opened) == "true,false"
+
+
+@needs_browser
+def test_a_table_of_forty_columns_fits_the_page(tmp_path):
+    names = [f"an-effect-with-a-name-{i}" for i in range(40)]
+    table = Table("t", ["Hidden", *names], [["resonance", *["12"] * len(names)]])
+    shown = Page("p", "k", [Section("s", "S", [table])]).write(tmp_path / "page.html")
+    overflow = "(e=>e.scrollWidth-e.clientWidth)(d.querySelector('.scroll'))"
+    assert int(asked(shown, tmp_path, overflow)) <= 0
 
 
 @needs_browser

@@ -1,10 +1,23 @@
 """Claims over instances: verdicts that hold beyond one, ties by rounding, searches that never arrive."""
 
+from dataclasses import replace
+
 import numpy as np
 import pandas as pd
 import pytest
 
-from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, UNDECIDED, in_words, judge, sentences, table
+from hysteresis_bench import statistics
+from hysteresis_bench.report.paper.claims import (
+    EQUIVALENT,
+    FAILS,
+    HOLDS,
+    NEVER,
+    UNDECIDED,
+    in_words,
+    judge,
+    sentences,
+    table,
+)
 from hysteresis_bench.report.paper.claims_file import write_claims
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches.against_time import curve
@@ -72,7 +85,21 @@ def test_nobody_is_faster_where_nobody_arrives():
     assert found.verdict == UNDECIDED
     assert found.why.startswith("neither comes")
     row = dict(zip((shown := table([found])).header, shown.cells[0], strict=True))
-    assert (row["Here"].text, row["Equivalent"].text) == (UNDECIDED, NONE)
+    assert (row["Here"].text, row["Equivalent"].text) == (NEVER, NONE)
+    assert in_words([found]).endswith("1 cannot be told, because neither of the two comes to the best known.")
+
+
+def test_a_claim_that_is_contradicted_is_named_and_called_what_the_table_calls_it():
+    found = judged(problem({"pso": 1.0, "new": 1.3}))
+    told = in_words([found])
+    assert f"1 {FAILS}, as the contrary does: “new beats pso” (on p)" in told
+    assert "contradicted" not in told
+
+
+def test_a_table_says_how_its_interval_and_its_p_are_read():
+    note = table([judged(problem({"pso": 1.0, "new": 0.8}))]).note
+    assert "its interval is of this claim alone" in note
+    assert "Equivalent is –" in note
 
 
 def test_the_verdicts_are_kept_for_other_programs(tmp_path):
@@ -80,14 +107,23 @@ def test_the_verdicts_are_kept_for_other_programs(tmp_path):
     write_claims(tmp_path, [found])
     [row] = pd.read_csv(tmp_path / "claims.csv").to_dict("records")
     assert (row["verdict"], row["over"], row["a12"]) == (HOLDS, "20 instances", found.a12)
+    never = judged(problem({"pso": 2.0, "new": 3.0, "best": 1.0}, noise=0.001), "evaluations_to_success")
+    write_claims(tmp_path, [never])
+    assert pd.read_csv(tmp_path / "claims.csv")["verdict"][0] == UNDECIDED
     assert row["a12_low"] <= row["a12"] <= row["a12_high"]
     chances = [row[f"probability_{side}"] for side in ("better", "equivalent", "worse")]
     assert sum(chances) == pytest.approx(1.0)
 
 
+def test_where_the_test_and_a12_are_at_odds_it_is_said_once():
+    found = judged(problem({"pso": 1.0, "new": 0.8}))
+    at_odds = replace(found, verdict=UNDECIDED, why=statistics.AT_ODDS)
+    assert sentences([at_odds]) == [f"The paper says: new beats pso. Here, on “p” {statistics.AT_ODDS}."]
+
+
 def test_an_ablation_is_asked_by_us_and_left_out_where_it_was_not_run():
     asked = judged(problem({"pso": 1.0, "new": 0.8}), ablation=True)
-    assert sentences([asked])[0].startswith("We asked whether")
+    assert sentences([asked])[0].startswith("We asked whether this holds: new beats pso.")
     assert in_words([asked]) == ""
     claim = {"says": "x", "where": "y", "better": "a", "worse": "b", "metric": "fitness", "ablation": True}
     assert judge(check_published({"claim": [claim]}), [problem({"pso": 1.0})]) == []
@@ -104,7 +140,8 @@ def test_a_problem_of_few_trials_is_told_beside_those_that_are_tested_and_takes_
     few = judged(problem({"pso": 1.0, "new": 1.3}, instances=1, trials=3, name="little"))
     shown = table([few, tried])
     assert [row[1] for row in shown.rows] == ["much"]
-    assert shown.note == "Not tested, as 14 instances, or trials of one instance, are needed: “little” (3 trials)."
+    few_trials = "Not tested, as 14 instances, or trials of one instance, are needed: “little” (3 trials)."
+    assert shown.note.startswith(few_trials)
     assert "little" not in in_words([few, tried]) + sentences([few, tried])[0]
 
 

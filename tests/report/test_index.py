@@ -77,6 +77,16 @@ def test_it_says_what_every_report_answers_and_judges_over_instances_only(kept):
     assert all((kept / link).is_file() for link in links)
 
 
+def test_where_neither_arrives_it_says_so_and_names_what_does_not_hold(kept):
+    why = "neither comes to the best known in most of them"
+    rows = [claims("20 instances", verdict="cannot tell", why=why), claims("20 instances", verdict="does not hold")]
+    pd.DataFrame(rows).to_csv(kept / "one" / "claims.csv", index=False)
+    page = write_index(kept).read_text(encoding="utf-8")
+    assert "1 cannot be told, because neither of the two comes to the best known" in page
+    assert "neither arrives</td>" in page
+    assert "What does not, as the contrary does: “new &lt;beats&gt; old” (on static)." in page
+
+
 def test_the_command_writes_it_for_a_folder_of_results(kept):
     told = CliRunner().invoke(report, [str(kept)])
     assert told.exit_code == 0, told.output

@@ -15,7 +15,7 @@ from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.report.paper.claims import FAILS, HOLDS, UNDECIDED, judge
 from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches.looks import SHOWN, choose, floors
-from hysteresis_bench.report.shared.text import number, percent, probability, whole
+from hysteresis_bench.report.shared.text import number, percent, probability, to_its_error, whole
 from hysteresis_bench.report.shared.theme import spread_labels
 from hysteresis_bench.report.study import summarise, write_report
 from hysteresis_bench.report.study.console import print_summary
@@ -166,6 +166,14 @@ def test_the_page_has_every_section_and_needs_nothing_else(folder, page):
     assert len(links.ids) == len(set(links.ids))
 
 
+def test_what_is_folded_away_says_what_it_is_and_is_open_on_paper(page):
+    summaries = re.findall("<summary>(.*?)</summary>", page)
+    assert "Show" not in summaries
+    assert {"Show 11 terms", "Show the text"} & set(summaries)
+    assert re.search(r"Show [0-9]+ tables", page)
+    assert "beforeprint" in page
+
+
 def test_what_a_study_says_is_text_not_markup(page):
     assert "&lt;b&gt;a test&lt;/b&gt;" in page
     assert "<b>a test</b>" not in page
@@ -265,7 +273,21 @@ def test_the_terminal_table_names_everybody(results):
         (number(0.0823), "0.0823"),
         (number(2.2722e7, 7), "2.2722×10⁷"),
         (number(15050.0), "15\u202f050"),
-        (number(12345.6), "12\u202f346"),
+        (number(12345.6), "12\u202f350"),
+        (number(396130.4, 2), "400\u202f000"),
+        (number(396130), "396\u202f130"),
+        (number(5433.2), "5\u202f433"),
+        (number(1.0), "1"),
+        (number(1.00004), "1.000"),
+        (number(0.1 + 0.2), "0.3"),
+        (number(999999.7), "1.000×10⁶"),
+        (number(3.2999996e-4), "3.300×10⁻⁴"),
+        (to_its_error(0.30712, 0.0212), "0.307"),
+        (to_its_error(238614.2, 2215.0), "238\u202f600"),
+        (to_its_error(0.1, 2.9), "0.1"),
+        (to_its_error(0.304225, 0.0), "0.304225"),
+        (to_its_error(1.23456789, None), "1.235"),
+        (to_its_error(1.23456789, float("inf")), "1.235"),
         (number(float("inf")), "failed"),
         (number(None), "–"),
         (number(float("nan")), "–"),

@@ -56,6 +56,20 @@ def test_a_row_is_the_median_over_instances_beside_what_is_printed():
     assert all(section.numeric[1:])
 
 
+def test_a_stage_without_a_check_has_no_table_of_it():
+    """Its columns are there where another stage of the study has one, and are empty."""
+    table = staged().assign(**{f"check_rmse{record}": np.nan for record in ("", ".slow", ".fast")})
+    captions = [table.caption for table in spread_tables(SPEC.model_copy(update={"check": []}), table, PUBLISHED, "um")]
+    assert not any("F_rmse" in caption for caption in captions)
+    assert len(captions) == 2
+
+
+def test_a_median_lies_between_its_quartiles_as_they_are_told():
+    table = staged().assign(b=lambda rows: 499.8 + 1e-3 * rows["instance"])
+    section, *_ = spread_tables(SPEC, table, Published(), "um")
+    assert rows(section)["b"][0] == "499.8 (499.8 to 499.8)"
+
+
 @pytest.mark.parametrize("share", [0.4, 0.6])
 def test_a_section_that_cannot_be_used_counts_as_the_worst(share):
     table = staged(5)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -55,10 +56,15 @@ def _rows(kind: registry.Kind) -> list[dict[str, str]]:
     from hysteresis_bench import registry
 
     return [
-        {"name": one.name, "summary": one.summary, "distribution": one.distribution, "version": one.version}
+        {"name": one.name, "summary": _by_itself(one.summary), "distribution": one.distribution, "version": one.version}
         | ({"fault": one.fault} if one.fault else {})
         for one in registry.registered(kind)
     ]
+
+
+def _by_itself(summary: str) -> str:
+    """Without the numbers of references, which a plugin tells in full by its name."""
+    return re.sub(r" \[[0-9]+\](?=[.,;: ])", "", summary)
 
 
 def _nearest(what: str, kinds: tuple[str, ...], everything: set[str]) -> str:
@@ -74,7 +80,7 @@ def _list_kind(kind: registry.Kind, console: Console) -> None:
 
     table = _table(kind)
     for plugin in registry.registered(kind):
-        summary = plugin.summary
+        summary = _by_itself(plugin.summary)
         if kind == "rigs" and plugin.loaded is not None:
             summary += f" Experiments: {', '.join(plugin.loaded.experiments)}."  # type: ignore[attr-defined]
         origin = f"{plugin.distribution} {plugin.version}"
@@ -82,7 +88,9 @@ def _list_kind(kind: registry.Kind, console: Console) -> None:
     if kind == "effects":
         for name, models in registry.offered().items():
             effect = registry.load("models", models[0]).loaded.offers[name]  # type: ignore[union-attr]
-            table.add_row(f"  {name}", escape(f"{registry.sentence(type(effect))} For {', '.join(models)}."))
+            table.add_row(
+                f"  {name}", escape(f"{_by_itself(registry.sentence(type(effect)))} For {', '.join(models)}.")
+            )
     console.print(table)
 
 

@@ -69,7 +69,8 @@ class Identifiability:
         return tuple(combination for blindness in self.blind for combination in blindness.combinations) + alone
 
     def sentences(self) -> tuple[str, ...]:
-        """What a user must know before believing the parameters; empty where all are well determined."""
+        """What a user must know before believing the parameters; empty where the output sees every direction, and each
+        is known better than a factor of e. How well a parameter is known is for its standard error to say."""
         sentences = []
         if self.rank < len(self.names):
             sentences.append(f"The output sees {self.rank} of {len(self.names)} directions of the parameters.")

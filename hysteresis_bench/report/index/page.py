@@ -13,7 +13,7 @@ from markupsafe import Markup
 
 from hysteresis_bench.data.csv_files import read_table
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, UNDECIDED
+from hysteresis_bench.report.paper.claims import EQUIVALENT, FAILS, HOLDS, READING, UNDECIDED, how_many, in_a_table
 from hysteresis_bench.report.paper.claims_file import CLAIMS
 from hysteresis_bench.report.shared.blocks import Block, Cell, Details, Table
 from hysteresis_bench.report.shared.page import Page, Section
@@ -113,6 +113,7 @@ def _claims(folders: Sequence[Path]) -> pd.DataFrame:
     if not tables:
         return pd.DataFrame()
     every = pd.concat(tables, ignore_index=True)
+    every = every.assign(why=every.get("why", ""))  # an older version did not say
     judged = every[~every["ablation"].astype(bool) & every["over"].str.endswith(SEVERAL)]
     place = {verdict: place for place, verdict in enumerate(VERDICTS)}
     return judged.sort_values("verdict", key=lambda column: column.map(place), kind="stable")
@@ -121,23 +122,14 @@ def _claims(folders: Sequence[Path]) -> pd.DataFrame:
 def _on_claims(claims: pd.DataFrame) -> Iterator[str]:
     if claims.empty:
         return
-    counts = claims["verdict"].value_counts()
-    ordered = [verdict for verdict in VERDICTS if verdict in counts]
-    told = [f"{counts[verdict]} {_many(verdict, counts[verdict])}" for verdict in ordered]
+    of = {verdict: claims[claims["verdict"] == verdict] for verdict in VERDICTS}
+    told = [f"{len(of[each])} {how_many(each, len(of[each]), list(of[each]['why']))}" for each in of if len(of[each])]
     over = listed(list(dict.fromkeys(claims["over"])))
     yield f"Of {len(claims)} judgements on the papers’ claims, each over {over} of the device: {listed(told)}."
-    held = claims[claims["verdict"] == HOLDS]
-    if not held.empty:
-        names = [f"“{claim}” (on {problem})" for claim, problem in zip(held["claim"], held["problem"], strict=True)]
-        yield f"What holds: {listed(names, len(names))}."
-
-
-def _many(verdict: str, count: int) -> str:
-    """A verdict on so many."""
-    if verdict not in (HOLDS, FAILS, EQUIVALENT):
-        return "cannot be told"
-    many = {HOLDS: "hold", FAILS: "do not hold", EQUIVALENT: "make no difference in practice"}
-    return verdict if count == 1 else many[verdict]
+    for verdict, what in ((HOLDS, "What holds"), (FAILS, "What does not, as the contrary does")):
+        pairs = zip(of[verdict]["claim"], of[verdict]["problem"], strict=True)
+        if names := [f"“{claim}” (on {problem})" for claim, problem in pairs]:
+            yield f"{what}: {listed(names, len(names))}."
 
 
 def _claims_section(claims: pd.DataFrame) -> Iterator[Section]:
@@ -147,13 +139,9 @@ def _claims_section(claims: pd.DataFrame) -> Iterator[Section]:
     for _, row in claims.iterrows():
         interval = f"{share(row['a12'])} ({share(row['a12_low'])} to {share(row['a12_high'])})"
         equivalent = share(row["probability_equivalent"]) if pd.notna(row["probability_equivalent"]) else NONE
-        verdict = Cell(row["verdict"], TONES.get(row["verdict"], "quiet"), strong=True)
+        verdict = Cell(in_a_table(row["verdict"], row["why"]), TONES.get(row["verdict"], "quiet"), strong=True)
         where = Cell(row["folder"], link=f"{row['folder']}/{REPORT}")
         rows.append([row["claim"], row["problem"], verdict, interval, probability(row["p"]), equivalent, where])
     header = ["Claim", "Problem", "Here", "A12 (95 %)", "p", "Equivalent", "In"]
-    note = "A12 is how often the one said to be better is better on the same specimen, ties half. p is corrected after "
-    note += (
-        "Holm over the claims of a problem. Equivalent: the probability that both are within 1\u202f% of each other."
-    )
     heading = "The papers’ claims over instances"
-    yield Section("claims", heading, [Table("Every claim on every problem", header, rows, note)])
+    yield Section("claims", heading, [Table("Every claim on every problem", header, rows, READING)])

@@ -10,7 +10,7 @@ from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.paper.published import Table as Printed
 from hysteresis_bench.report.shared.blocks import Block, Cell, Paragraph, Table
 from hysteresis_bench.report.shared.page import Section
-from hysteresis_bench.report.shared.text import NONE, number
+from hysteresis_bench.report.shared.text import AS_PRINTED, NONE, number
 from hysteresis_bench.report.trials.metrics import NAMES, metric_text
 from hysteresis_bench.report.trials.problem import Problem
 from hysteresis_bench.study.results import Results
@@ -58,7 +58,7 @@ def _results(published: Published, problems: list[Problem]) -> Iterator[list[str
                     follows = evaluate(implied.arithmetic, {**published.values, "value": result.value, name: value})
                     yield [
                         result.optimizer,
-                        f"{NAMES.get(implied.metric, implied.metric)} implied if {name} = {number(value)}",
+                        f"{NAMES.get(implied.metric, implied.metric)} implied if {name} = {_text(value)}",
                         metric_text(implied.metric, follows),
                         Cell("if so", "quiet"),
                         *_ours(result.optimizer, implied.metric, problems),
@@ -95,7 +95,7 @@ def _tables_beside(published: Published, results: Results, problems: list[Proble
 
 
 def _text(value: float | str) -> str:
-    return value if isinstance(value, str) else number(value, 7)
+    return value if isinstance(value, str) else number(value, AS_PRINTED)
 
 
 def _box(title: str, columns: dict[str, list[float | str]], results: Results) -> Table:
@@ -108,9 +108,9 @@ def _box(title: str, columns: dict[str, list[float | str]], results: Results) ->
         row: list[str | Cell] = [str(name), f"{_text(low)} to {_text(high)}"]
         for spec in results.study.problem:
             if name in spec.bounds:
-                row.append(f"{number(spec.bounds[str(name)][0])} to {number(spec.bounds[str(name)][1])}")
+                row.append(" to ".join(map(_text, spec.bounds[str(name)])))
             elif name in spec.fixed:
-                row.append(f"{number(spec.fixed[str(name)])}, fixed")
+                row.append(f"{_text(spec.fixed[str(name)])}, fixed")
             else:
                 row.append("the data's" if spec.box == "data" else "the model's own")
         rows.append(row)

@@ -11,12 +11,22 @@ from hysteresis_bench import statistics
 from hysteresis_bench.report.paper.published import Claim, Published
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Table
 from hysteresis_bench.report.shared.page import Section
-from hysteresis_bench.report.shared.text import NONE, listed, p_equals, probability, share
+from hysteresis_bench.report.shared.text import NONE, listed, p_equals, probability, sentence, share
 from hysteresis_bench.report.trials.metrics import TO_SUCCESS, metric_text
 from hysteresis_bench.report.trials.problem import Problem
+from hysteresis_bench.statistics.comparison import SURE
 
 HOLDS, FAILS, EQUIVALENT, UNDECIDED = "holds", "does not hold", "makes no difference", "cannot tell"
+NEVER, NEITHER = "neither arrives", "neither comes to the best known in most of them"
+"""What a table shows in the place of UNDECIDED where this is why; the verdict in claims.csv is UNDECIDED."""
 VERDICTS = {"better": HOLDS, "worse": FAILS, "equivalent": EQUIVALENT}
+NEITHER_OF = "neither of the two comes to the best known"
+MANY = {
+    HOLDS: ("holds", "hold"),
+    FAILS: ("does not hold", "do not hold"),
+    EQUIVALENT: ("makes no difference in practice", "make no difference in practice"),
+}
+"""What one claim does, and what several do."""
 CLAIMS, ABLATIONS = "The paper's claims in our trials", "What the parts of the paper's algorithm are worth"
 ABSENT = "the course of the searches was not kept"
 NOT_STAGED = "no stage was run on every trial"
@@ -42,6 +52,17 @@ class Judged:
     @property
     def a12(self) -> float | None:
         return self.found.a12 if self.found else None
+
+
+READING = (
+    "A12 is how often the one said to be better is better in the same instance, ties half; its interval is of this "
+    "claim alone. p is corrected after Holm over all claims of the problem: an interval without 0.5 may stand beside a "
+    f"p above {statistics.LEVEL}. Equivalent is the probability that both are within 1\u202f% of each other; this is "
+    f"asked first, and from {SURE} a claim {EQUIVALENT}, whatever p is. {sentence(NEVER)[:-1]}: {NEITHER_OF} "
+    f"in most instances, or trials of one, so that nothing can be compared, and Equivalent is {NONE}. "
+    f"Where we cannot tell though p is below {statistics.LEVEL}, the signed-rank test favours one and A12 does not."
+)
+"""How the columns of a table of claims are read."""
 
 
 def judge(published: Published, problems: list[Problem]) -> list[Judged]:
@@ -81,7 +102,7 @@ def _judged(claim: Claim, problem: Problem, found: statistics.Comparison) -> Jud
     medians = problem.middle(claim.better, claim.metric), problem.middle(claim.worse, claim.metric)
     verdict, why = VERDICTS.get(found.verdict, UNDECIDED), found.words
     if claim.metric == TO_SUCCESS and found.p is not None and np.mean(np.isinf(ours) & np.isinf(theirs)) > 0.5:
-        verdict, why = UNDECIDED, "neither comes to the best known in most of them"
+        verdict, why = UNDECIDED, NEITHER
         found = replace(found, practical=None)  # never there is not equally fast
     return Judged(claim, problem.name, verdict, why, medians, found, problem.several, problem.counted)
 
@@ -101,10 +122,9 @@ def section(judged: Sequence[Judged]) -> Section | None:
         "does not, where a Wilcoxon signed-rank test over the instances’ medians tells the two apart "
         f"(p\u00a0<\u00a0{statistics.LEVEL} after Holm’s correction over the claims of a problem). It makes no "
         "difference where the Bayesian signed-rank test finds both within 1\u202f% of each other with a probability of "
-        "0.95; of fitness, the relative RMS is asked. Values equal to rounding (10⁻⁶) are ties. A12 is how often the "
-        "one said to be better is better in the same instance; 0.5 is a coin’s toss; its 95\u202f% interval is a "
-        "bootstrap over instances. Where a study has one instance, trials that share their first points are the "
-        "blocks, and the verdict holds in this instance only."
+        "0.95; of fitness, the relative RMS is asked. Values equal to rounding (10⁻⁶) are ties. An A12 of 0.5 is a "
+        "coin’s toss; its 95\u202f% interval is told under Definitions. Where a study has one instance, trials that "
+        "share their first points are the blocks, and the verdict holds in this instance only."
     )
     ablations = table([found for found in judged if found.claim.ablation], ABLATIONS)
     blocks: list[Block] = [Bullets(sentences(judged)), how, *([ablations] if ablations else [])]
@@ -124,15 +144,20 @@ def table(judged: Sequence[Judged], caption: str = CLAIMS) -> Table | None:
         assert found.medians
         tone = {HOLDS: "good", FAILS: "bad"}.get(found.verdict, "quiet")
         medians = " : ".join(metric_text(found.claim.metric, median) for median in found.medians)
-        row: list[str | Cell] = [_said(found.claim), found.problem, Cell(found.verdict, tone, strong=True), medians]
+        verdict = Cell(in_a_table(found.verdict, found.why), tone, strong=True)
+        row: list[str | Cell] = [_said(found.claim), found.problem, verdict, medians]
         rows.append([*row, *(_statistics(found) if enough else []), found.over])
     header = ["Claim", "Problem", "Here", "Medians, first : second"]
     header += ["A12 (95 %)", "p", "Equivalent"] if enough else []
     least = f"{statistics.ENOUGH} instances, or trials of one instance, are needed"
-    note = "" if enough else f"Too few to test: {least}."
-    if few:
-        note = f"Not tested, as {least}: {listed(list(few))}."
-    return Table(caption, [*header, "Over"], rows, note)
+    notes = [f"Not tested, as {least}: {listed(list(few))}."] if few else []
+    notes = [*notes, READING] if enough else notes or [f"Too few to test: {least}."]
+    return Table(caption, [*header, "Over"], rows, " ".join(notes))
+
+
+def in_a_table(verdict: str, why: str) -> str:
+    """A verdict with its reason, where this is that nobody arrives."""
+    return NEVER if (verdict, why) == (UNDECIDED, NEITHER) else verdict
 
 
 def _statistics(found: Judged) -> list[str | Cell]:
@@ -161,26 +186,33 @@ def in_words(judged: Sequence[Judged]) -> str:
         len(set(names)) for names in zip(*((each.claim.says, each.problem) for each in papers), strict=True)
     )
     holding = [f"“{found.claim.says}” (on {found.problem})" for found in papers if found.verdict == HOLDS]
-    rest = [told for verdict in (EQUIVALENT, FAILS, UNDECIDED) if (told := _rest(papers, verdict))]
+    rest = [told for verdict in (EQUIVALENT, UNDECIDED, FAILS) if (told := _rest(papers, verdict))]
     count = f"{len(papers)} judgement{'s' * (len(papers) != 1)}"
     if not holding:
         on = f"any of the {problems} problems" if problems > 1 else f"“{papers[0].problem}”"
-        return f"None of the paper’s {claims} claims holds on {on}, {where}: of {count}, {listed(rest)}."
+        return f"None of the paper’s {claims} claims holds on {on}, {where}: of {count}, {'; '.join(rest)}."
     hold = f"{len(holding)} hold{'s' * (len(holding) == 1)}: {listed(holding, 3)}"
-    return (
-        f"Of {count} on the paper’s {claims} claims, {where}, {hold}{'; ' * bool(rest)}{listed(rest) if rest else ''}."
-    )
+    return f"Of {count} on the paper’s {claims} claims, {where}, {'; '.join([hold, *rest])}."
 
 
 def _rest(papers: Sequence[Judged], verdict: str) -> str:
-    """How many ended so, as a clause; empty where none did."""
-    count = sum(found.verdict == verdict for found in papers)
-    one = count == 1
-    clause = {
-        EQUIVALENT: "makes no difference in practice" if one else "make no difference in practice",
-        FAILS: "is contradicted" if one else "are contradicted",
-    }.get(verdict, "cannot be told")
-    return f"{count} {clause}" if count else ""
+    """How many ended so, as a clause, with their names where the contrary was found; empty where none did."""
+    ended = [found for found in papers if found.verdict == verdict]
+    if not ended:
+        return ""
+    if verdict == FAILS:
+        names = [f"“{found.claim.says}” (on {found.problem})" for found in ended]
+        return f"{len(ended)} {how_many(verdict, len(ended))}, as the contrary does: {listed(names, 3)}"
+    return f"{len(ended)} {how_many(verdict, len(ended), [found.why for found in ended])}"
+
+
+def how_many(verdict: str, count: int, why: Sequence[str] = ()) -> str:
+    """What so many claims do, after their number.  why : of each, where that is known"""
+    if verdict in MANY:
+        return MANY[verdict][count > 1]
+    never = sum(reason == NEITHER for reason in why)
+    whom = "" if never == count else f"in {never} of them "
+    return f"cannot be told{f', {whom}because {NEITHER_OF}' * bool(never)}"
 
 
 def sentences(judged: Sequence[Judged]) -> list[str]:
@@ -199,9 +231,13 @@ def _sentence(judged: Sequence[Judged], says: str) -> str:
             numbers = f" ({p_equals(found.p)}, A12 = {share(found.a12)}, {effect} effect)"
         elif found.why:
             numbers = f" ({found.why})"
-        verdict = found.why if found.why == statistics.SAME else f"{_here(found.verdict)}{within}{numbers}"
+        verdict = (
+            found.why
+            if found.why in (statistics.SAME, statistics.AT_ODDS)
+            else f"{_here(found.verdict)}{within}{numbers}"
+        )
         parts.append(f"on “{found.problem}” {verdict}")
-    asked = "We asked whether" if about[0].claim.ablation else "The paper says:"
+    asked = "We asked whether this holds:" if about[0].claim.ablation else "The paper says:"
     return f"{asked} {says}. Here, {listed(parts)}."
 
 

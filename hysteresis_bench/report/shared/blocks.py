@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar
 
-from hysteresis_bench.report.shared.text import number, percent, unit_cell
+from hysteresis_bench.report.shared.text import listed, number, percent, unit_cell
 from hysteresis_bench.report.shared.theme import Picture
 
 NUMBER = re.compile(
     r"–|failed|not reached|not determined|(< )?-?[0-9][0-9.\u202f]*(×10[⁻⁰¹²³⁴-⁹]+)?(\u202f%| s)?( (to |of |± |\().*)?"
 )
+
+SIDE_BY_SIDE = 16
+"""Columns of a table that still fit a page with their names written across."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +55,11 @@ class Table:
         """Which columns hold nothing but numbers."""
         columns = zip(*self.cells, strict=True) if self.rows else ((Cell("a"),) for _ in self.header)
         return [all(re.fullmatch(NUMBER, cell.text) for cell in column) for column in columns]
+
+    @property
+    def many(self) -> bool:
+        """Whether its columns have no room for their names beside each other, which then run downwards."""
+        return len(self.header) > SIDE_BY_SIDE
 
 
 @dataclass(frozen=True)
@@ -108,6 +117,27 @@ class Details:
 
     summary: str
     blocks: Sequence[Block]
+
+
+def inside(blocks: Sequence[Block]) -> str:
+    """What a reader finds behind a line that opens it, counted: `2 tables and 12 figures`; `the text` without any."""
+    counted = [f"{count} {what}{'s' * (count > 1)}" for what, count in _counted(blocks).items() if count]
+    return listed(counted) if counted else "the text"
+
+
+def _counted(blocks: Sequence[Block]) -> Counter[str]:
+    """Tables, figures and terms, however deep."""
+    found = Counter({"table": 0, "figure": 0, "term": 0})  # in this order
+    for block in blocks:
+        if isinstance(block, Table):
+            found["table"] += 1
+        elif isinstance(block, Figures):
+            found["figure"] += len(block.pictures)
+        elif isinstance(block, Terms):
+            found["term"] += len(block.pairs)
+        elif isinstance(block, Details):
+            found.update(_counted(block.blocks))
+    return found
 
 
 Block = str | Table | Paragraph | Heading | Bullets | Terms | Figures | Details

@@ -52,7 +52,7 @@ class Page:
         """
         if path.is_symlink():
             raise UserError(str(path), f"is a link to {path.readlink()}; remove it, so that the page is written here.")
-        parts = {"style": "style.css", "sorting": "sorting.js"}
+        parts = {"style": "style.css", "sorting": "sorting.js", "printing": "printing.js"}
         inside = {key: (files(PACKAGE) / "templates" / name).read_text(encoding="utf-8") for key, name in parts.items()}
         text: str = _environment().get_template("page.html.j2").render(page=self, **inside)
         path.write_text(text, encoding="utf-8")

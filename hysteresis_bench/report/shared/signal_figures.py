@@ -13,8 +13,8 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.report.shared.text import Units, named
-from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, Picture, legend, picture
+from hysteresis_bench.report.shared.text import Units, listed, named
+from hysteresis_bench.report.shared.theme import INK, MUTED, SERIES, WIDEST, Picture, legend, picture, stroke
 
 DRIVE = "voltage"
 """A column of what the drive was told, where the input itself is measured."""
@@ -24,6 +24,9 @@ MANY, DRAWN = 20, 8
 
 SWING = 0.05
 """Share of the input's range by which a cycle must turn back."""
+
+LINE = 0.01
+"""A line's width as a share of what is drawn: a point of the hundred that an axis is high."""
 
 Parts = Mapping[str, tuple[pd.DataFrame, str]]
 """Who simulated -> the rows of one record, and a colour."""
@@ -54,13 +57,13 @@ def loop(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -
     cycles, told = _few_cycles(next(iter(parts.values()))[0]["input"].to_numpy(dtype=float))
     parts = {who: (_only(rows, cycles), colour) for who, (rows, colour) in parts.items()}
     measured, _ = next(iter(parts.values()))
-    caption = f"{caption}{told}"
+    caption = f"{caption}{told}{within_a_line(_simulated(parts))}"
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        axes.plot(measured["input"], measured["output"], color=MUTED, linewidth=2.6, alpha=0.55, label="measured")
-        for who, (rows, colour) in parts.items():
-            axes.plot(rows["input"], rows["simulated"], color=colour, linewidth=1.2, label=who)
+        axes.plot(measured["input"], measured["output"], label="measured", **beneath(len(parts)))
+        for place, (who, (rows, colour)) in enumerate(parts.items()):
+            axes.plot(rows["input"], rows["simulated"], color=colour, label=who, **stroke(place, len(parts), 1.2))
         axes.set(xlabel=named("Input", units, "input"), ylabel=named("Output", units, "output"))
         legend(axes)
 
@@ -96,12 +99,14 @@ def measured_loops(
 
 def errors(folder: Path, name: str, parts: Parts, *, units: Units, caption: str) -> Picture:
     """Simulated minus measured over time, per cent of the largest measured |output|."""
+    drawn = {who: relative_error(rows) for who, (rows, _) in parts.items()}
+    caption = f"{caption}{within_a_line(drawn)}"
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         axes.axhline(0, color=MUTED, linewidth=0.8)
-        for who, (rows, colour) in parts.items():
-            axes.plot(rows["time"], relative_error(rows), color=colour, linewidth=1.0, label=who)
+        for place, (who, (rows, colour)) in enumerate(parts.items()):
+            axes.plot(rows["time"], drawn[who], color=colour, label=who, **stroke(place, len(parts)))
         axes.set(xlabel=named("Time", units, "time"), ylabel="Error (% of largest output)")
         legend(axes, 3)
 
@@ -113,6 +118,39 @@ def relative_error(rows: pd.DataFrame) -> Array:
     measured = rows["output"].to_numpy(dtype=float)
     scale = float(np.max(np.abs(measured), initial=0.0)) or 1.0
     return np.asarray(100.0 * (rows["simulated"].to_numpy(dtype=float) - measured) / scale)
+
+
+def beneath(count: int) -> dict[str, Any]:
+    """How what was measured is drawn below `count` simulations: wider than they are."""
+    return {"color": MUTED, "linewidth": 2.6 if count < 2 else 2.6 + WIDEST, "alpha": 0.55}
+
+
+def _simulated(parts: Parts) -> dict[str, Array]:
+    return {who: rows["simulated"].to_numpy(dtype=float) for who, (rows, _) in parts.items()}
+
+
+def within_a_line(curves: Mapping[str, Array], begins: str = "Within") -> str:
+    """A sentence, with a space before it, on the curves that cover each other everywhere; empty without any.
+
+    curves : (samples,) by name, drawn on one axis; what is not a number is not drawn
+    begins : the sentence's first words, where one of two axes is meant
+    """
+    shown = [values[np.isfinite(values)] for values in curves.values()]
+    ends = [(values.min(), values.max()) for values in shown if values.size]
+    width = LINE * (max(high for _, high in ends) - min(low for low, _ in ends)) if ends else 0.0
+    groups: list[list[str]] = []
+    for name, values in curves.items():
+        mine = [group for group in groups if _closer(values, curves[group[0]], width)]
+        if mine:
+            mine[0].append(name)
+        else:
+            groups.append([name])
+    told = [listed([f"“{name}”" for name in group], len(group)) for group in groups if len(group) > 1]
+    return f" {begins} a line’s width of each other: {'; '.join(told)}." if told else ""
+
+
+def _closer(one: Array, other: Array, width: float) -> bool:
+    return one.shape == other.shape and bool(np.nanmax(np.abs(one - other), initial=0.0) <= width)
 
 
 def _few_cycles(u: Array) -> tuple[list[slice], str]:

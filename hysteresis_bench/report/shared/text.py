@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from numbers import Integral
 from typing import Any
 
 NONE = "–"
+AS_PRINTED = 7
+"""Significant digits of a number that a paper prints or a study sets: as many as stand there."""
+SAME = 1e-12
+"""Relative difference of two numbers that differ by arithmetic alone."""
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 Units = Mapping[str, str]
@@ -14,23 +19,52 @@ Units = Mapping[str, str]
 
 
 def number(value: Any, digits: int = 4, never: str = "failed") -> str:
-    """3.296×10⁻⁴, 0.0823, 15 050; NONE where absent, `never` where infinite."""
+    """3.296×10⁻⁴, 0.0823, 15 050; NONE where absent, `never` where infinite.
+
+    An integer is told whole, every other number to `digits` significant ones. Zeros at the end say that something was
+    rounded: 1 is one, 1.000 nearly so. Digits stand in threes, also of four, so that a column has one look.
+    """
     if not _given(value):
         return NONE
+    if isinstance(value, Integral):
+        return whole(value)
     value = float(value)
     if math.isinf(value):
         return never
     if value == 0:
         return "0"
-    if 1e-3 <= abs(value) < 1e6:
-        if value == round(value) and abs(value) >= 1:
-            return whole(value)
-        text = f"{value:.{digits}g}"
-        return text if "e" not in text else whole(value)
     mantissa, exponent = f"{value:.{digits - 1}e}".split("e")
-    if "." in mantissa:
-        mantissa = mantissa.rstrip("0").rstrip(".")
-    return f"{mantissa}×10{str(int(exponent)).translate(SUPERSCRIPTS)}"
+    power, rounded = int(exponent), float(f"{mantissa}e{exponent}")
+    exact = math.isclose(rounded, value, rel_tol=SAME)
+    if -3 <= power < 6:
+        return _without_zeros(_in_threes(f"{rounded:,.{max(0, digits - 1 - power)}f}"), exact)
+    return f"{_without_zeros(mantissa, exact)}×10{str(power).translate(SUPERSCRIPTS)}"
+
+
+def to_its_error(value: float, error: float | None, digits: int = 2, most: int = AS_PRINTED) -> str:
+    """A value as far as its standard error lets it be known, 0.307 beside 0.021 and 238 600 beside 2 200.
+
+    error : in the value's unit, told to `digits` significant ones; None or infinite where nothing is known of it
+    most : significant digits at most
+    """
+    if error is None or not value or not math.isfinite(error):
+        return number(value)
+    known = _power(value, most) - _power(error, digits) + digits if error else most
+    return number(value, min(max(known, 1), most))
+
+
+def _power(value: float, digits: int) -> int:
+    """Of ten, of a value that is rounded to so many significant digits."""
+    return int(f"{value:.{digits - 1}e}".partition("e")[2])
+
+
+def _without_zeros(text: str, exact: bool) -> str:
+    """Zeros after the point are dropped where nothing was rounded."""
+    return text.rstrip("0").rstrip(".") if exact and "." in text else text
+
+
+def _in_threes(text: str) -> str:
+    return text.replace(",", "\u202f")
 
 
 def whole(value: Any, never: str = "not reached") -> str:
@@ -39,7 +73,7 @@ def whole(value: Any, never: str = "not reached") -> str:
         return NONE
     if math.isinf(float(value)):
         return never
-    return f"{round(float(value)):,}".replace(",", "\u202f")
+    return _in_threes(f"{round(float(value)):,}")
 
 
 def percent(value: Any, digits: int = 3, never: str = "failed") -> str:

@@ -65,6 +65,18 @@ LEGIBLE = 0.9
 WIDE, CHARACTER = 40, 5.5
 """Points: a column of numbers beside rows, at least, and what a character of it takes."""
 
+POINTS, BESIDE = 72, 40
+"""Points of an inch; and of a figure's width what stands beside the axes."""
+HANDLE, LETTER = 2.4, 5.2
+"""Of a legend: the length of its lines in letters' heights, and points that a letter takes."""
+AROUND = 8.5 * (HANDLE + 2.8)
+"""Points of a legend's column beside its letters."""
+
+WIDEST = 1.6
+"""Points by which the first of several lines is wider than the last."""
+DASHES: tuple[Any, ...] = ("-", (0, (4, 1.5)), (0, (1.3, 1.3)), (0, (7, 1.5, 1.3, 1.5)), (0, (3, 3)))
+"""Of lines above each other, in their order."""
+
 
 @dataclass(frozen=True)
 class Picture:
@@ -131,8 +143,30 @@ def inline(svg: str, name: str, alt: str) -> str:
 
 
 def legend(axes: Any, columns: int = 2) -> None:
-    """Above the axes, in one row where there is room."""
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, borderaxespad=0, handlelength=1.4)
+    """Above the axes, in so many columns, and in fewer where the figure has no room for them."""
+    labels = axes.get_legend_handles_labels()[1]
+    room = POINTS * axes.figure.get_size_inches()[0] - BESIDE
+    while columns > 1 and _legend_width(labels, columns) > room:
+        columns -= 1
+    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.0), ncols=columns, borderaxespad=0, handlelength=HANDLE)
+
+
+def _legend_width(labels: Sequence[str], columns: int) -> float:
+    """In points, of a legend that is filled column by column."""
+    each, more = divmod(len(labels), columns)
+    sizes = [each + (place < more) for place in range(columns)]
+    ends = [sum(sizes[: place + 1]) for place in range(columns)]
+    parts = [labels[end - size : end] for end, size in zip(ends, sizes, strict=True) if size]
+    return sum(LETTER * max(map(len, part)) + AROUND for part in parts)
+
+
+def stroke(place: int, count: int, width: float = 1.0) -> dict[str, Any]:
+    """How a line is drawn that others may cover: the first wide and whole, those above it thinner and dashed, so that
+    each is seen through the next. place : 0, 1, ... of `count`;  width : of a line alone, and of the last, in points"""
+    if count < 2:
+        return {"linewidth": width}
+    wider = WIDEST * (count - 1 - place) / (count - 1)
+    return {"linewidth": width + wider, "linestyle": DASHES[place % len(DASHES)], "dash_capstyle": "butt"}
 
 
 def numbers_beside(axes: Any, columns: Sequence[tuple[str, str, Mapping[int, str]]]) -> None:

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.control.bench import FEED_FORWARD
-from hysteresis_bench.report.shared.signal_figures import Parts, loop
+from hysteresis_bench.report.shared.signal_figures import Parts, beneath, loop, within_a_line
 from hysteresis_bench.report.shared.text import Units, named, number
-from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, legend, picture
+from hysteresis_bench.report.shared.theme import MUTED, SERIES, Picture, legend, picture, stroke
 from hysteresis_bench.study.afterwards.stages import CONTROL
 
 CYCLES = 3
@@ -45,13 +45,14 @@ def feed_forward_figure(folder: Path, place: int, responses: pd.DataFrame, *, un
         return None
     voltage, wanted = named("Input", units, "input"), named("Reference", units, "output")
     reached = named("Output", units, "output")
+    courses = list(alone.groupby("optimizer", sort=False))
     panels = [("output", "input", wanted, voltage), ("input", "simulated", voltage, reached)]
     panels.append(("output", "simulated", wanted, reached))
 
     def draw(figure: Any) -> None:
         for axes, (x, y, below, beside) in zip(figure.subplots(1, 3), panels, strict=True):
-            for (label, rows), colour in zip(alone.groupby("optimizer", sort=False), SERIES, strict=False):
-                axes.plot(rows[x], rows[y], color=colour, linewidth=1.1, label=label)
+            for place, ((label, rows), colour) in enumerate(zip(courses, SERIES, strict=False)):
+                axes.plot(rows[x], rows[y], color=colour, label=label, **stroke(place, len(courses), 1.1))
             axes.set(xlabel=below, ylabel=beside)
         legend(figure.axes[0], 3)
 
@@ -64,6 +65,9 @@ def feed_forward_figure(folder: Path, place: int, responses: pd.DataFrame, *, un
         "it asks for; middle: the actuator’s loop under this voltage; right: both in series, near a straight line"
     )
     caption += f". Largest {named('error', units, 'output')}: {told}."
+    ranges = {key: float(np.ptp(alone[key])) or 1.0 for key in ("input", "simulated")}
+    both = {label: np.concatenate([rows[key] / ranges[key] for key in ranges]) for label, rows in courses}
+    caption += within_a_line(both)
     name = f"stage-{place}-feed-forward"
     return picture(folder, name, (7.4, 2.7), alt=f"Feed-forward alone. {caption}", caption=caption, draw=draw)
 
@@ -93,14 +97,17 @@ def stage_figures(
 def _fit(folder: Path, name: str, parts: Parts, units: Units, caption: str, *, truth: str = "measured") -> Picture:
     """What is to be met and what meets it above, the errors below."""
     measured, _ = next(iter(parts.values()))
+    curves = {who: rows["simulated"].to_numpy(dtype=float) for who, (rows, _) in parts.items()}
+    caption += within_a_line(curves, "Above, within")
 
     def draw(figure: Any) -> None:
         upper, lower = figure.subplots(2, 1, sharex=True)
-        upper.plot(measured["time"], measured["output"], color=MUTED, linewidth=2.6, alpha=0.55, label=truth)
+        upper.plot(measured["time"], measured["output"], label=truth, **beneath(len(parts)))
         lower.axhline(0, color=MUTED, linewidth=0.8)
-        for who, (rows, colour) in parts.items():
-            upper.plot(rows["time"], rows["simulated"], color=colour, linewidth=1.0, label=who)
-            lower.plot(rows["time"], rows["simulated"] - rows["output"], color=colour, linewidth=0.9)
+        for place, (who, (rows, colour)) in enumerate(parts.items()):
+            upper.plot(rows["time"], rows["simulated"], color=colour, label=who, **stroke(place, len(parts)))
+            error = rows["simulated"] - rows["output"]
+            lower.plot(rows["time"], error, color=colour, **stroke(place, len(parts), 0.9))
         upper.set_ylabel(named("Output", units, "output"))
         lower.set_ylabel(named("Error", units, "output"))
         lower.set_xlabel(named("Time", units, "time"))

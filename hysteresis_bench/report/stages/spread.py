@@ -11,11 +11,13 @@ from hysteresis_bench import statistics
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.shared.blocks import Cell, Table
-from hysteresis_bench.report.shared.text import NONE, named, number
+from hysteresis_bench.report.shared.text import AS_PRINTED, NONE, named, number
 from hysteresis_bench.study.afterwards.staged_trials import TUNED
 from hysteresis_bench.study.study_file import StageSpec
 
 CHECKS = {"error": ("check_error", "F_error, eq. (12)"), "rmse": ("check_rmse", "F_rmse, eq. (13)")}
+MEAN, COMPUTED = "mean", 4
+"""What a mean is called, and the digits of one that is computed here from printed entries."""
 LOOPS = {"error": ("tracking_error", "T_error"), "rmse": ("tracking_rmse", "T_rmse")}
 
 
@@ -32,7 +34,7 @@ def spread_tables(spec: StageSpec, staged: pd.DataFrame, published: Published, u
     tables = [_table(f"{spec.name}: the linear section", staged, spec.optimizers, spec.fit, _by_optimizer(sections))]
     checks = next((columns for columns in printed if "record" in columns), {})
     for key, (metric, words) in CHECKS.items():
-        rows = [*(f"{metric}.{record}" for record in spec.check), metric]
+        rows = [*(f"{metric}.{record}" for record in spec.check), *([metric] if spec.check else [])]
         theirs = _by_column(checks, "record", key, metric)
         tables.append(_table(f"{spec.name}: {named(words, units, 'output')}", staged, spec.optimizers, rows, theirs))
     loops = next((table for table in published.tables.values() if "reference" in table.columns), None)
@@ -69,7 +71,8 @@ def _table(title: str, staged: pd.DataFrame, labels: Sequence[str], names: Seque
     for name in (name for name in names if name in staged.columns):
         row: list[str | Cell] = [Cell(_last(name), "line")]
         for label in labels:
-            row += [number(printed[label].get(name))] if label in printed else []
+            digits = COMPUTED if _last(name) == MEAN else AS_PRINTED
+            row += [number(printed[label].get(name), digits)] if label in printed else []
             row.append(_spread(_blocks(staged[staged["optimizer"] == label], name)))
         rows.append(row)
     instances, trials = staged["instance"].nunique(), len(staged[staged["optimizer"] == labels[0]])
@@ -85,7 +88,7 @@ def _last(name: str) -> str:
     if metric not in known:
         return name
     signal = rest.partition(".")[2] if metric.startswith("tracking") else rest
-    return signal or "mean"
+    return signal or MEAN
 
 
 def _blocks(rows: pd.DataFrame, name: str) -> Array:
@@ -99,10 +102,9 @@ def _blocks(rows: pd.DataFrame, name: str) -> Array:
 def _spread(blocks: Array) -> str:
     if blocks.size == 0:
         return NONE
-    shares = {0.25: 3, 0.5: 4, 0.75: 3}
     if blocks.size == 1:
         return number(blocks[0])
-    low, middle, high = (number(statistics.quantile(blocks, share), digits) for share, digits in shares.items())
+    low, middle, high = (number(statistics.quantile(blocks, share)) for share in (0.25, 0.5, 0.75))
     return f"{middle} ({low} to {high})"
 
 

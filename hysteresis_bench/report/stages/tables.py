@@ -11,7 +11,7 @@ import pandas as pd
 from hysteresis_bench.report.paper.published import Published
 from hysteresis_bench.report.paper.published import Table as Printed
 from hysteresis_bench.report.shared.blocks import Cell, Table
-from hysteresis_bench.report.shared.text import NONE, named, number
+from hysteresis_bench.report.shared.text import AS_PRINTED, NONE, named, number, to_its_error
 from hysteresis_bench.report.stages.rows import error_of, labels_of, mean_error
 from hysteresis_bench.study.afterwards.stages import FITTED, HELD, LARGEST, RMSE, STAGED, TRACKING
 from hysteresis_bench.study.study_file import StageSpec
@@ -26,7 +26,7 @@ def linear_section(spec: StageSpec, rows: pd.DataFrame, published: Published) ->
             place = printed["optimizer"].index(label)
             values = {name: float(printed[name][place]) for name in spec.fit}
             header.append(f"{label}, published")
-            sides.append({name: number(value, 7) for name, value in values.items()} | _derived(spec, values))
+            sides.append({name: number(value, AS_PRINTED) for name, value in values.items()} | _derived(spec, values))
         mine = rows[(rows["optimizer"] == label) & (rows["way"] == STAGED)]
         of_fit = mine[mine["quantity"] == FITTED].set_index("name")
         header.append(f"{label}, ours" if printed and label in printed["optimizer"] else label)
@@ -53,7 +53,7 @@ def _cell(name: str, text: str) -> Cell:
 
 
 def _with_error(value: float, error: float) -> str:
-    return number(value, 6) if pd.isna(error) else f"{number(value, 6)} ± {number(error, 2)}"
+    return number(value) if pd.isna(error) else f"{to_its_error(value, error)} ± {number(error, 2)}"
 
 
 def _derived(spec: StageSpec, values: Mapping[str, float]) -> dict[str, str]:
@@ -123,7 +123,10 @@ def tracking(spec: StageSpec, rows: pd.DataFrame, published: Published, *, unit:
                 theirs = dict(zip(printed["reference"], column, strict=True)).get(reference) if column else None
                 mine = here[(here["name"] == reference) & (here["controller"] == controller)]
                 mine = mine[(mine["optimizer"] == label) & (mine["quantity"] == quantity)]["value"]
-                row += [number(theirs) if controller == papers else NONE, number(None if mine.empty else mine.iloc[0])]
+                row += [
+                    number(theirs, AS_PRINTED) if controller == papers else NONE,
+                    number(None if mine.empty else mine.iloc[0]),
+                ]
         cells.append(row)
     note = "Largest and RMS error of the true displacement, where the reference is scored."
     if papers:

@@ -15,7 +15,8 @@ from hysteresis_bench.report.diagnosis.before_after import (
     step_by_step,
     ties_in_words,
 )
-from hysteresis_bench.report.diagnosis.page import FILE, description
+from hysteresis_bench.report.diagnosis.in_print import in_print
+from hysteresis_bench.report.diagnosis.page import FILE, description, in_short
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Figures, Paragraph
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import listed, sentence
@@ -77,15 +78,15 @@ def _asked(spec: ClosingSpec, closing: Closing) -> Iterator[str]:
 def _found(closing: Closing, folder: Path) -> Iterator[Block]:
     found, units = complete(closing.diagnosis), closing.units
     noise = found["noise_rms"] or 0.0
-    yield Paragraph(found["headline"], "strong")
+    yield from in_short(found["headline"])
     if _older(closing):
         yield Paragraph(OLDER, "note")
     if found["ties"]:
         yield "What these data cannot tell apart:"
-        yield Bullets(ties_in_words(found["ties"]))
+        yield Bullets([in_print(words) for words in ties_in_words(found["ties"])])
     if caveats := besides_ties(found["warnings"], found["ties"]):
         yield "Before you believe it:"
-        yield Bullets(caveats)
+        yield Bullets([in_print(words) for words in caveats])
     yield errors_table(found, noise, units)
     yield Figures([step_by_step(folder, found, units, name=f"{PLACE}-waterfall")])
     held_out = closing.responses[closing.responses["role"] == "held-out"]
@@ -93,6 +94,6 @@ def _found(closing: Closing, folder: Path) -> Iterator[Block]:
         yield from record_blocks(folder, f"{PLACE}-{i}", rows, noise=noise, units=units)
     yield from description(found)
     if found["advice"]:
-        yield found["advice"]
+        yield in_print(found["advice"])
     link = Markup('<a href="{}">the whole diagnosis</a>').format(f"{CLOSING}/{FILE}")
     yield Markup("Every candidate, test and parameter: {}.").format(link)

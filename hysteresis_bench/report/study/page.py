@@ -12,7 +12,7 @@ from hysteresis_bench.report.paper.published import check_published
 from hysteresis_bench.report.searches import section as searches
 from hysteresis_bench.report.searches.figures import all_trials
 from hysteresis_bench.report.searches.looks import choose, floors
-from hysteresis_bench.report.shared.blocks import Block, Details, Figures
+from hysteresis_bench.report.shared.blocks import Block, Details, Figures, inside
 from hysteresis_bench.report.shared.page import Page, Section
 from hysteresis_bench.report.shared.theme import Picture
 from hysteresis_bench.report.stages import section as stages
@@ -118,8 +118,8 @@ def _at_a_glance(judged: Sequence[claims.Judged], pictures: Sequence[Picture]) -
 
 
 def _folded(section: Section) -> Section:
-    """Behind a line that opens it: details that a reader asks for."""
-    return Section(section.anchor, section.heading, [Details("Show", section.blocks)])
+    """Behind a line that opens it and says what is there: details that a reader asks for."""
+    return Section(section.anchor, section.heading, [Details(f"Show {inside(section.blocks)}", section.blocks)])
 
 
 def whole(parts: Sequence[Part]) -> tuple[list[Section], list[str]]:

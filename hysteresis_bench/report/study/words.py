@@ -9,8 +9,9 @@ import pandas as pd
 
 from hysteresis_bench import statistics
 from hysteresis_bench.report.paper import claims
-from hysteresis_bench.report.shared.text import listed, number, percent
-from hysteresis_bench.report.trials.best_known import EQUAL
+from hysteresis_bench.report.shared.text import listed, number, percent, whole
+from hysteresis_bench.report.trials.best_known import EQUAL, EXACT
+from hysteresis_bench.report.trials.metrics import TO_SUCCESS
 from hysteresis_bench.report.trials.problem import Problem
 
 
@@ -22,14 +23,33 @@ def answer(problems: Sequence[Problem], summary: pd.DataFrame, judged: Sequence[
 
 def _best(problems: Sequence[Problem], summary: pd.DataFrame) -> str:
     """Of every problem the winner and whom nobody can tell it apart from."""
-    parts = []
-    for problem in (problem for problem in problems if not problem.failed):
-        best = _row(problem, summary)
-        same = problem.tied_with_winner
-        beside = f", beside {len(same)} that nobody can tell apart from it" if same else ""
-        rms = percent(best["relative_rms_median"])
-        parts.append(f"{problem.winner} on “{problem.name}” (relative RMS {rms}{beside})")
+    parts = [_from_whom(problem, summary) for problem in problems if not problem.failed]
     return f"The best fits by median come from {listed(parts, len(parts))}." if parts else "Every trial failed."
+
+
+def _from_whom(problem: Problem, summary: pd.DataFrame) -> str:
+    if exactly := exact(problem):
+        others = len(exactly) - 1
+        beside = f", as {'is' if others == 1 else 'are'} {others} other{'s' * (others > 1)}" if others else ""
+        return f"{quoted(exactly[0])} on “{problem.name}” (exact{beside})"
+    same = problem.tied_with_winner
+    beside = f", beside {len(same)} that nobody can tell apart from it" if same else ""
+    rms = percent(_row(problem, summary)["relative_rms_median"])
+    return f"{quoted(problem.winner)} on “{problem.name}” (relative RMS {rms}{beside})"
+
+
+def exact(problem: Problem) -> list[str]:
+    """The optimizers whose median fit is exact, first those of the fewest evaluations; none on data with noise.
+
+    Below EXACT nobody is better than another, and neither a lower fitness nor a ratio of two says anything.
+    """
+    found = [label for label in problem.ranked if problem.middle(label, "relative_rms") <= EXACT]
+    return sorted(found, key=lambda label: problem.middle(label, TO_SUCCESS)) if problem.traces else found
+
+
+def quoted(label: str) -> str:
+    """An optimizer's label in a sentence; between quotation marks where it has a comma of its own."""
+    return f"“{label}”" if "," in label else label
 
 
 def winners(problems: Sequence[Problem], summary: pd.DataFrame) -> list[str]:
@@ -44,13 +64,25 @@ def _row(problem: Problem, summary: pd.DataFrame) -> pd.Series:
 def _winner(problem: Problem, summary: pd.DataFrame) -> str:
     if problem.failed:
         return f"On “{problem.name}” every trial failed."
-    best = _row(problem, summary)
+    if exactly := exact(problem):
+        return f"{_who_fits_exactly(problem, exactly)} {_apart(problem)}"
+    best, winner = _row(problem, summary), quoted(problem.winner)
     sentence = (
-        f"On “{problem.name}”, {problem.winner} has the lowest median fitness, {number(best['fitness_median'])} "
-        f"(relative RMS {percent(best['relative_rms_median'])}{_ratio(problem)}). It came within 1 % of the best known "
-        f"in {best['successes']} of {best['counted']} trials."
+        f"On “{problem.name}”, {winner} has the lowest median fitness, {number(best['fitness_median'])} (relative "
+        f"RMS {percent(best['relative_rms_median'])}{_ratio(problem)}). It came within 1 % of the best known in "
+        f"{best['successes']} of {best['counted']} trials."
     )
     return f"{sentence} {_apart(problem)}"
+
+
+def _who_fits_exactly(problem: Problem, exactly: Sequence[str]) -> str:
+    first, several = exactly[0], len(exactly) > 1
+    who = f"{len(exactly)} optimizers fit" if several else f"{quoted(first)} alone fits"
+    said = f"On “{problem.name}”, {who} exactly (relative RMS of at most {number(EXACT)})"
+    reached = problem.middle(first, TO_SUCCESS) if problem.traces else np.inf
+    if not np.isfinite(reached):
+        return f"{said}."
+    return f"{said}{f'; the first, {quoted(first)},' if several else ','} after {whole(reached)} evaluations."
 
 
 def _ratio(problem: Problem) -> str:
@@ -65,8 +97,8 @@ def _ratio(problem: Problem) -> str:
     ratio = theirs / ours
     by = f"{number(ratio, 3)} times lower" if ratio >= 1.5 else f"{percent(1 - ours / theirs, 2)} lower"
     if max(ratio, 1 / ratio) < EQUAL:
-        return f"; the same as the reference {problem.reference}"
-    return f"; {by} than the reference {problem.reference}" if ratio > 1.0 else ""
+        return f"; the same as the reference {quoted(problem.reference)}"
+    return f"; {by} than the reference {quoted(problem.reference)}" if ratio > 1.0 else ""
 
 
 def _apart(problem: Problem) -> str:
@@ -79,10 +111,11 @@ def _apart(problem: Problem) -> str:
             f"optimizers apart ({statistics.ENOUGH} are needed)."
         )
     where = f"Over {problem.counted}" if problem.several else "In this instance"
-    same = problem.tied_with_winner
+    same, exactly = problem.tied_with_winner, exact(problem)
+    best = quoted(problem.winner) if len(exactly) > 1 else "it"
     if not same:
         level = f"(Holm-corrected p < {statistics.LEVEL})"
-        return f"{where}, the trials tell it apart from each of the other {others} {level}."
+        return f"{where}, the trials tell {best} apart from each of the other {others} {level}."
     rest = others - len(same)
     apart = f" The trials tell it apart from the other {rest}." if rest else ""
-    return f"{where}, we cannot tell it apart from {listed(same, 8)}.{apart}"
+    return f"{where}, we cannot tell {best} apart from {listed([quoted(label) for label in same], 8)}.{apart}"

@@ -24,7 +24,7 @@ def rate_independence(course: Course) -> Finding:
         why="no law that is rate-independent follows it alone: a lag, creep or eddy currents around it may",
         without="Time is only an index here: speeds cannot be compared."
         if untimed
-        else "No way of the input was gone at two speeds: rate independence cannot be tested.",
+        else "The input takes no path at two speeds: rate independence cannot be tested.",
         along="input",
     )
 
