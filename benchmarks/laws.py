@@ -62,7 +62,11 @@ def summary(rows: pd.DataFrame) -> str:
 
 
 def kept(rows: pd.DataFrame) -> pd.DataFrame:
-    """A row a device, also of those that were not run: the chosen law, what it and the polynomial leave, the floor."""
+    """A row a device, also of those that were not run: the chosen law, what it and the polynomial leave, the floor.
+
+    The floor is heard in the data before any law, and too high where samples are few for the loop, as those of a steel
+    coupon are: the page shows the diagnosis's in its place, which is heard beside a law.
+    """
     found = []
     for device in DEVICES:
         part = rows[rows["device"] == device.name].set_index("law") if len(rows) else rows

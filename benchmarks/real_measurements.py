@@ -21,13 +21,24 @@ from typing import Any
 import diagnosed_page
 import measured_page
 import numpy as np
+import pandas as pd
 
 from hysteresis_bench import load
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.report.diagnosis.figures import bars_of, waterfall
-from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Paragraph, Table
+from hysteresis_bench.report.diagnosis.in_print import first_sentence, in_print, unit_in_print
+from hysteresis_bench.report.shared.blocks import (
+    ESTIMATE_HEADER,
+    ESTIMATE_NOTE,
+    Block,
+    Cell,
+    Figures,
+    Paragraph,
+    Table,
+    estimate_cells,
+)
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
 from hysteresis_bench.report.shared.text import NONE, listed, number, sentence
 from hysteresis_bench.signals import Dataset, Record
@@ -35,6 +46,8 @@ from hysteresis_bench.signals import Dataset, Record
 ROOT = Path(__file__).parent.parent
 DATA = Path(os.environ.get("HYSTERESIS_DATA", ROOT.parent / "shared" / "data"))
 NUMBERS, STEPS, LAWS, FOUND, PAGE = "numbers.csv", "steps.csv", "laws.csv", "diagnosed.csv", "report.html"
+STAND_IN = " (stand-in)"
+"""Behind the names of steps that may stand in for the law."""
 BEFORE_LAWS = "What one model that was given lacks, as a diagnosis says that does not look for the law."
 
 
@@ -241,6 +254,7 @@ def row(case: Case, found: Diagnosis, seconds: float) -> dict[str, Any]:
         "model": case.model,
         "verdict": found.verdict,
         "effects": " ".join(found.effects),
+        "stand_ins": " ".join(found.stand_ins),
         "ties": "; ".join(f"{tie.effect} or {tie.rival}" for tie in found.ties),
         "hysteresis_needed": found.memory.needed,
         "hysteresis": found.memory.words,
@@ -266,7 +280,8 @@ def read(path: Path) -> list[dict[str, str]]:
 
 def write(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+        columns = dict.fromkeys(name for row in rows for name in row)  # older rows lack some
+        writer = csv.DictWriter(file, list(columns), restval="", lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
 
@@ -288,15 +303,37 @@ def page(folder: Path, rows: Sequence[Mapping[str, str]], steps: Sequence[Mappin
     if (folder / FOUND).is_file():
         beside |= {FOUND: "a row a device, with nothing given"}
     made = Section("made", "How it was made", [how, files_beside(beside)])
-    diagnoses = Section("summary", "Diagnoses of one given model", [BEFORE_LAWS, _summary(rows)])
+    diagnoses = Section("summary", "Diagnoses of one given model", [BEFORE_LAWS, _summary(rows, steps)])
     sections = [diagnoses, *parts, made]
     if laws is None:
-        return Page("Diagnosis of real measurements", f"{len(parts)} questions", sections).write(folder / PAGE)
+        title, kicker = "Diagnosis of real measurements", f"{len(parts)} questions"
+        return Page(title, kicker, sections, contents=True).write(folder / PAGE)
+    noise: dict[str, float] = {}
     if (folder / FOUND).is_file():
-        sections = [diagnosed_page.section(diagnosed_page.read(folder / FOUND), laws), *sections]
-    sections = [measured_page.section(folder, laws), *sections]
+        found = diagnosed_page.read(folder / FOUND)
+        noise = dict(zip(found["device"], found["floor"], strict=True))
+        sections = [_with_nothing_given(found, laws), *sections]
+    sections = [measured_page.section(folder, laws, noise), *sections]
     kicker = "Laws and diagnoses of measured devices"
-    return Page("Real measurements", kicker, sections, measured_page.answer(laws)).write(folder / PAGE)
+    return Page("Real measurements", kicker, sections, measured_page.answer(laws), contents=True).write(folder / PAGE)
+
+
+def _with_nothing_given(found: pd.DataFrame, laws: pd.DataFrame) -> Section:
+    """The diagnoses of measured devices, as `diagnosed_page` has them; those of synthetic data in a sentence each."""
+    real = measured_page.measured(found)
+    told = diagnosed_page.section(real, measured_page.measured(laws))
+    made = [_made(row) for _, row in found.drop(real.index).iterrows()]
+    return Section(told.anchor, told.heading, [*told.blocks, *made])
+
+
+def _made(row: pd.Series) -> str:
+    """What was found of synthetic data."""
+    named = listed(row["effects"].split()) if row["effects"] else "no effect"
+    errors = [f"{number(row[which], 3)} {unit_in_print(row['unit'])}" for which in ("before", "after")]
+    return (
+        f"{row['device']}, not counted above: the law is {row['law']}, {named} is named, held out the RMSE is "
+        f"{errors[0]} before and {errors[1]} after, in {number(row['seconds'] / 60, 2)} minutes."
+    )
 
 
 def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[Mapping[str, str]]) -> Section:
@@ -306,13 +343,15 @@ def _section(folder: Path, case: Case, one: Mapping[str, str], steps: Sequence[M
     name = "".join(c for c in case.name if c.isalnum())
     drawn, parameters = waterfall(folder, bars, units={"output": one["unit"]}, name=name), _parameters(one)
     ties = [f"These records do not tell apart: {one['ties']}."] if one["ties"] else []
-    advice = [one["advice"]] if one["advice"] else []
-    blocks: list[Block] = [Paragraph(sentence(f"{case.device}: {case.known}"), "note"), one["headline"]]
-    blocks += [sentence(one["hysteresis"]), *ties, *advice, Figures([drawn])]
-    return Section("", f"{case.name[0].upper()}{case.name[1:]}", [*blocks, *([parameters] if parameters.rows else [])])
+    advice = [in_print(one["advice"])] if one["advice"] else []
+    first, others = first_sentence(in_print(one["headline"]))
+    blocks: list[Block] = [Paragraph(sentence(f"{case.device}: {case.known}"), "note"), Paragraph(first, "strong")]
+    blocks += [*([others] if others else []), in_print(sentence(one["hysteresis"])), *ties, *advice, Figures([drawn])]
+    tables = [parameters] if parameters.rows else []
+    return Section(f"case-{name}", f"{case.name[0].upper()}{case.name[1:]}", [*blocks, *tables])
 
 
-def _summary(rows: Sequence[Mapping[str, str]]) -> Table:
+def _summary(rows: Sequence[Mapping[str, str]], steps: Sequence[Mapping[str, str]]) -> Table:
     lines: list[list[str | Cell]] = []
     for one in rows:
         before, after = _float(one["held_out_before"]), _float(one["held_out_after"])
@@ -322,26 +361,42 @@ def _summary(rows: Sequence[Mapping[str, str]]) -> Table:
                 one["case"],
                 one["model"],
                 Cell(_names(one), "prose"),
+                Cell(listed(stand_ins(one, steps)) if stand_ins(one, steps) else NONE, "prose"),
                 "yes" if one["hysteresis_needed"] == "True" else "no",
                 number(before, 3),
                 Cell(number(after, 3), "", strong=True),
-                number(gain, 3),
+                Cell(number(gain, 3), "bad" if gain is not None and gain < 1.0 else ""),
                 number(_float(one["noise"]), 2),
-                one["unit"] if one["unit"] != "1" else "",
+                unit_in_print(one["unit"]) if one["unit"] != "1" else "",
             ]
         )
     header = [
         "Case",
         "Model",
-        "Effects found",
+        "Named",
+        "For the law",
         "Hysteresis needed",
         "Before",
         "After",
-        "Times smaller",
+        "Before/after",
         "Noise",
         "Unit",
     ]
-    return Table("RMSE on records that were not fitted", header, lines, note="The noise is estimated from the data.")
+    note = (
+        "For the law: what was adopted too, acts in “after”, and is not named, as it may stand in for what is wrong "
+        "with the law. Before/after below 1: what was adopted predicts these records worse. The noise is estimated "
+        "from the fitted records alone, before any law; they are not those of the tables above."
+    )
+    return Table("RMSE on records that were not fitted", header, lines, note=note)
+
+
+def stand_ins(one: Mapping[str, str], steps: Sequence[Mapping[str, str]]) -> list[str]:
+    """What was adopted and may stand in for the law; of rows that do not say so, from the steps of the error."""
+    if one.get("stand_ins"):
+        return one["stand_ins"].split()
+    labels = [step["step"] for step in steps if step["case"] == one["case"]]
+    offsets = [offset for label in labels[:1] if (offset := label.partition(" with a ")[2])]
+    return [label.removesuffix(STAND_IN) for label in labels if label.endswith(STAND_IN)] + offsets
 
 
 def _names(one: Mapping[str, str]) -> str:
@@ -352,11 +407,12 @@ def _names(one: Mapping[str, str]) -> str:
 
 
 def _parameters(one: Mapping[str, str]) -> Table:
-    rows: list[list[str | Cell]] = [
-        [name, number(value, 4), NONE if error is None else number(error, 2), "" if unit == "1" else unit]
+    rows = [
+        estimate_cells(name, value, error, unit=unit_in_print(unit), digits=4)
         for name, (value, error, unit) in json.loads(one["parameters"]).items()
     ]
-    return Table("Parameters of the effects", ["Parameter", "Value", "Standard error", "Unit"], rows)
+    note = f"{ESTIMATE_NOTE} What is red has an error larger than its value: these data do not determine it."
+    return Table("Parameters of the effects", ESTIMATE_HEADER, rows, note)
 
 
 def _float(text: Any) -> float | None:

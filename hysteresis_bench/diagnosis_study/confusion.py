@@ -9,13 +9,18 @@ import pandas as pd
 from hysteresis_bench.diagnosis_study.case import Case
 
 NOTHING = "nothing"
+"""Row of the cases with nothing hidden; column of what was missed while nothing was claimed in its place."""
+
+BESIDE = "beside what was hidden"
+"""Row of the claims that were extra in cases of which nothing that was hidden was missed."""
 
 
 def confusion(cases: Sequence[Case]) -> pd.DataFrame:
     """Cases by hidden effect (rows) and what was claimed for it (columns).
 
     A hidden effect that was named counts under its name; one that was not, under every claim that was extra or
-    tied in its case, or under "nothing". Extra claims of cases with nothing missed stand in the row "nothing".
+    tied in its case, or under NOTHING. Extra claims of cases with nothing missed stand in the row BESIDE, and in the
+    row NOTHING where nothing was hidden.
     """
     pairs = []
     for case in (case for case in cases if case.status == "done"):
@@ -25,7 +30,7 @@ def confusion(cases: Sequence[Case]) -> pd.DataFrame:
         for entry in [*case.tied.split(), *case.missed.split()]:
             pairs += [(entry, name) for name in spare or [NOTHING]]
         if not case.missed:
-            pairs += [(NOTHING, name) for name in wrong]
+            pairs += [(BESIDE if case.hidden else NOTHING, name) for name in wrong]
         if not case.hidden and not case.claimed:
             pairs.append((NOTHING, NOTHING))
     table = pd.DataFrame(pairs, columns=["hidden", "claimed"])

@@ -12,15 +12,20 @@ from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
 from hysteresis_bench.diagnosis_study.case import Case, by_family, compared
-from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
+from hysteresis_bench.diagnosis_study.confusion import BESIDE, NOTHING, confusion
 from hysteresis_bench.diagnosis_study.results import CASES, FOLDER, STUDY, read_cases, write_tables
 from hysteresis_bench.diagnosis_study.study_file import is_diagnosis_study, read_diagnosis_study
 from hysteresis_bench.errors import UserError
+from hysteresis_bench.report.diagnosis_study.answer import Halves, answer_in_words
+from hysteresis_bench.report.diagnosis_study.confused import confusion_blocks
 from hysteresis_bench.report.diagnosis_study.page import answer, write_diagnosis_study_page
 from hysteresis_bench.report.diagnosis_study.reliability import BINS, LEAST, reliability
 from hysteresis_bench.report.diagnosis_study.settled import fates, settled_section, words
+from hysteresis_bench.report.diagnosis_study.sure import sure_section, tone
 
 STUDIES = Path(__file__).parents[2] / "studies"
+
+EXTRA = {"extra": "drift"}
 
 TEXT = """
 kind = "diagnosis"
@@ -87,6 +92,41 @@ def test_the_confusion_matrix_counts_cases():
     assert [case.right for case in cases] == [True, False, False, True, False, False]
 
 
+def test_claims_beside_hidden_effects_are_told_from_claims_of_clean_data():
+    cases = [
+        Case("a", "m", 0, "done", hidden="creep", claimed="creep leakage", named="creep", extra="leakage"),
+        Case("a", "m", 1, "done"),
+    ]
+    table = confusion(cases)
+    assert table.at[BESIDE, "leakage"] == table.at[NOTHING, NOTHING] == 1
+    assert table.loc[NOTHING].sum() == 1
+
+
+def test_the_matrix_shows_what_was_confused_and_names_the_rest(tmp_path):
+    cases = [
+        Case("a", "m", 0, "done", hidden="creep", claimed="creep", named="creep"),
+        Case("a", "m", 1, "done", hidden="drift", claimed="drift leakage", named="drift", extra="leakage"),
+        Case("a", "m", 2, "done", hidden="drift bias", claimed="leakage", missed="drift bias", extra="leakage"),
+        Case("a", "m", 3, "done", hidden="drift|bias", claimed="bias", named="drift|bias"),
+        Case("a", "m", 4, "done"),
+    ]
+    heading, sound, figures, table = confusion_blocks(tmp_path, "known", "Here", cases)
+    assert heading.text == "Here"
+    assert (
+        sound == "Always claimed rightly, in so many cases: creep (1), drift or bias (1) and nothing, where nothing "
+        "was hidden (1)."
+    )
+    assert "creep" not in figures.pictures[0].inline
+    rows = [[cell.text for cell in row] for row in table.cells]
+    assert rows == [
+        ["beside what was hidden", "leakage", "1 of 4"],
+        ["bias", "leakage", "1 of 1"],
+        ["drift", "leakage", "1 of 2"],
+    ]
+    assert len(confusion_blocks(tmp_path, "known", "Here", cases[:1])) == 2
+    assert confusion_blocks(tmp_path, "known", "Here", []) == []
+
+
 def test_a_family_counts_for_one_hidden_effect_of_it():
     time, curve = "change with time, path or temperature", "curve of the input"
     assert by_family(["drift"], [{time}]) == ["drift"]
@@ -101,7 +141,8 @@ def test_a_family_counts_for_one_hidden_effect_of_it():
 def test_kept_cases_are_told_from_their_table_and_damaged_ones_by_name(tmp_path):
     kept = Path(__file__).parents[2] / "results" / "closing_the_loop"
     assert len(read_cases(kept)) == len((kept / CASES).read_text(encoding="utf-8").splitlines()) - 1
-    case = Case("a", "m", 1, "done", hidden="creep", missed="creep", noise=0.5)
+    extra = {"claimed": "bias", "extra": "bias", "sure": "0.950"}
+    case = Case("a", "m", 1, "done", hidden="creep", missed="creep", noise=0.5, **extra)
     write_tables(tmp_path, [case])
     assert read_cases(tmp_path) == [case]
     (tmp_path / FOLDER).mkdir()
@@ -207,10 +248,68 @@ def test_the_page_tells_shares_and_what_went_wrong(tmp_path):
     for case in cases:
         (tmp_path / FOLDER / f"clean.{case.number}.json").write_text(json.dumps(asdict(case)))
     page = write_diagnosis_study_page(tmp_path).read_text()
-    assert "something was claimed in 1 of 4 (25\u202f%" in answer(tmp_path)[0]
-    assert "1 of 3 (33\u202f%" in answer(tmp_path)[0]
+    assert answer(tmp_path) == [
+        "Where nothing is hidden, something was claimed in 1 of 4 made with the law asked about."
+    ]
+    assert "1 of 4 (4.6\u202f% to 70\u202f%)" in page
+    assert "1 of 3 (6.1\u202f% to 79\u202f%)" in page
     assert "exit code 9 &lt;b&gt;" in page
     assert "Cases that went wrong" in page
+    assert "Not listed" not in page
+
+
+def test_what_is_right_by_family_alone_is_counted_where_it_is_not_listed(tmp_path):
+    (tmp_path / STUDY).write_text(TEXT)
+    right = {"hidden": "drift", "missed": "drift", "extra": "zero-with-time", "claimed": "zero-with-time"}
+    cases = [
+        Case("clean", "bouc-wen", 0, "done", family="drift", **right),
+        Case("clean", "bouc-wen", 1, "done", **right),
+    ]
+    write_tables(tmp_path, cases)
+    page = write_diagnosis_study_page(tmp_path).read_text()
+    assert "clean, 0" not in page
+    assert "clean, 1" in page
+    assert "Not listed: 1 more" in page
+    assert answer(tmp_path)[0].startswith(
+        "Everything hidden was named, and nothing else, in 0 of 2 cases made with the law asked about (1 where a family"
+    )
+
+
+@pytest.mark.parametrize(
+    ("told", "wrong", "verdict"),
+    [
+        ("0.977", 0, "probability of 97.7\u202f%, and 100\u202f% were (200 of 200): somewhat too careful."),
+        ("0.800", 0, "(200 of 200): too careful."),
+        ("0.977", 4, "(196 of 200): neither too sure nor too careful, within what chance does to so many claims."),
+        ("0.977", 16, "(184 of 200): too sure."),
+        ("0.977", 12, "(188 of 200): somewhat too sure."),
+    ],
+)
+def test_a_study_of_probabilities_is_answered_by_them(told, wrong, verdict):
+    halves = Halves(_claims(told, 200, wrong), [])
+    first, second = answer_in_words("Are the probabilities right?", halves)
+    assert first.endswith(verdict)
+    assert second.startswith("Everything hidden was named")
+    assert answer_in_words("Small", halves) == [second, first]
+
+
+def test_only_too_sure_is_red(tmp_path):
+    assert [tone(told, 0.7, 0.9) for told in (0.6, 0.7, 0.9, 0.95)] == ["", "good", "good", "bad"]
+    (section,) = sure_section(tmp_path, _claims("0.977", 100, 40))
+    (row,) = section.blocks[-1].cells
+    assert [cell.text for cell in row[:1]] == ["97.7\u202f%"]
+    assert (row[3].tone, row[5].text[:3]) == ("bad", "-38")
+    assert "1 bins in the place" not in section.blocks[-1].note
+    assert "One bin in the place of 5" in section.blocks[-1].note
+
+
+def _claims(told, count, wrong):
+    """Cases of one claim each, the last ones wrong."""
+    right = {"hidden": "drift", "named": "drift"}
+    return [
+        Case("clean", "bouc-wen", k, "done", claimed="drift", sure=told, **(right if k < count - wrong else EXTRA))
+        for k in range(count)
+    ]
 
 
 def test_run_a_study_of_diagnosis_and_continue_it(tmp_path):
@@ -238,7 +337,7 @@ def test_the_command_writes_the_page_of_a_diagnosis_study_again(tmp_path):
     (tmp_path / FOLDER / "clean.0.json").write_text(json.dumps(asdict(case)))
     ran = CliRunner().invoke(main, ["report", str(tmp_path)])
     assert ran.exit_code == 0, ran.output
-    assert "something was claimed in 0 of 1" in (tmp_path / "report.html").read_text()
+    assert "something was claimed in 0 of 1 made" in (tmp_path / "report.html").read_text()
 
     kept = tmp_path / "kept"
     ran = CliRunner().invoke(main, ["report", str(tmp_path), "--keep", str(kept)])
@@ -281,15 +380,15 @@ def test_bins_hold_equally_many_claims_as_far_as_there_are_enough(claims, sizes)
     assert all(one.high <= other.low for one, other in pairwise(bins))
 
 
-def test_wrong_claims_told_alike_are_spread_over_the_bins():
-    hidden = {"hidden": "drift", "named": "drift"}
-    cases = [
-        Case(
-            "b", "bouc-wen", number, "done", claimed="drift", sure="0.980", **({"extra": "drift"} if wrong else hidden)
-        )
-        for number, wrong in enumerate([True, False] * 50)
+def test_claims_told_alike_share_a_bin():
+    sure = [*12 * ["0.900"], *60 * ["0.980"], *3 * ["0.990"], *25 * ["0.995"]]
+    cases = [Case("b", "m", k, "done", claimed="drift", sure=told, extra="drift") for k, told in enumerate(sure)]
+    assert [(one.low, one.high, one.claims) for one in reliability(cases)] == [
+        (0.9, 0.9, 12),
+        (0.98, 0.98, 60),
+        (0.99, 0.995, 28),
     ]
-    assert [one.right for one in reliability(cases)] == [10] * 5
+    assert [one.claims for one in reliability(cases[12:72])] == [60]
 
 
 def test_the_page_holds_probabilities_against_what_was_right(tmp_path):

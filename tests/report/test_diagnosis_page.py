@@ -6,6 +6,7 @@ import json
 import re
 from dataclasses import replace
 from pathlib import Path
+from unittest.mock import Mock
 
 import numpy as np
 import pandas as pd
@@ -25,8 +26,9 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.accuracy import Accuracy
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.report.diagnosis.before_after import bars_from
-from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, waterfall
+from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, draw_residual, residuals, waterfall
 from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
+from hysteresis_bench.report.diagnosis.in_print import first_sentence, in_print
 from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
 from hysteresis_bench.signals import Record
 
@@ -94,7 +96,7 @@ def _plain(page: str) -> str:
 
 def test_the_page_says_what_was_found(tmp_path, diagnosis):
     text = _plain(_written(tmp_path, diagnosis))
-    assert text.index(diagnosis.headline) < text.index("before and after")
+    assert text.index(in_print(diagnosis.headline)) < text.index("before and after")
     for words in (
         "bouc-wen lacks input-lag",
         "input-lag or, as well, transport-delay",
@@ -241,14 +243,16 @@ def test_a_polynomial_far_above_does_not_hide_the_effects(tmp_path):
     assert "The bar with an arrow goes on" in far.caption
     assert "without memory" in near.caption
     assert "arrow" not in near.caption
+    assert "Dashed: the noise in the data." in near.caption
     assert ">9<" in far.inline
 
 
 def test_what_a_black_box_reaches_stands_beside_the_verdict(tmp_path, diagnosis):
     reached = Ceiling(0.13, 0.1, 0.11, 4.0, "past extrema", "whole records", 4, "um", 0.09, 0.08, None)
     text = _plain(_written(tmp_path, replace(diagnosis, ceiling=reached)))
-    assert reached.words in text
-    assert text.index(diagnosis.headline) < text.index(reached.words) < text.index("before and after")
+    told = [text.index(in_print(words)) for words in (diagnosis.headline, reached.words)]
+    assert told == sorted(told)
+    assert told[-1] < text.index("before and after")
 
 
 def test_a_diagnosis_of_before_the_ceiling_has_its_page(tmp_path, diagnosis):
@@ -277,3 +281,51 @@ def test_what_was_measured_and_what_it_settled(tmp_path, diagnosis):
     assert kept["measured"]["ties"][0]["settled"]
     assert kept["measured"]["before"]["effects"] == ["input-lag"]
     assert "carried out" not in _plain(_written(tmp_path, diagnosis))
+
+
+@pytest.mark.parametrize(
+    ("words", "printed"),
+    [
+        ("falls from 2.62e-05 to 1.02e+03 C/m^2; so.", "falls from 2.62×10⁻⁵ to 1\u202f020 C/m²; so."),
+        ("leaves 4.13% of the range (p = 2.8e-204)", "leaves 4.13\u202f% of the range (p < 0.001)"),
+        ("drifts by 0.3 um/s (13 % of it), p = 0.", "drifts by 0.3 μm/s (13\u202f% of it), p < 0.001."),
+        ("p = 0.023, of 3 degC or 1e-06 um", "p = 0.023, of 3 °C or 1×10⁻⁶ μm"),
+        ("record file-2e-5.csv of um", "record file-2e-5.csv of um"),
+    ],
+)
+def test_sentences_are_printed_as_the_tables_are(words, printed):
+    assert in_print(words) == printed
+
+
+def test_only_the_first_sentence_of_the_verdict_is_strong(tmp_path, diagnosis):
+    headline = "The model lacks input-lag: it falls to 0.04 um. dahl alone does not. Something is left."
+    page = _written(tmp_path, replace(diagnosis, headline=headline))
+    assert '<p class="strong">The model lacks input-lag: it falls to 0.04 μm.</p>' in page
+    assert "<p>dahl alone does not. Something is left.</p>" in page
+    assert first_sentence("One only.") == ("One only.", "")
+
+
+def test_what_the_data_do_not_determine_is_no_result(tmp_path, diagnosis):
+    def text_with(error: float | None) -> str:
+        parameters = {"d": Estimate(1.0, 0.1, "um/V"), "input-lag.time_constant": Estimate(0.0123, error, "s")}
+        return _plain(_written(tmp_path, replace(diagnosis, model=replace(diagnosis.model, parameters=parameters))))
+
+    for unsure in (None, 0.02):
+        text = text_with(unsure)
+        assert "time_constant 0.0123 (not determined)" in text
+        assert "these data do not tell the value of input-lag.time_constant: it is no result" in text
+    sure = text_with(0.0004)
+    assert "not determined" not in sure
+    assert "it is no result" not in sure
+
+
+def test_errors_have_one_sign_and_a_band_that_can_be_seen(tmp_path, diagnosis):
+    rows = diagnosis.responses[diagnosis.responses["record"] == "slow"]
+    told = {"units": UNITS, "caption": "slow."}
+    seen, thin = (residuals(tmp_path, "r", rows, noise=noise, **told)[0].caption for noise in (0.02, 1e-5))
+    assert seen == "slow. Simulated minus measured over time; shaded: twice the noise to either side."
+    assert "would be thinner than a line" in thin
+    lines = []
+    axes = Mock(plot=lambda x, y, **_: lines.append(np.asarray(y)))
+    draw_residual(axes, rows, "time", 0.02, UNITS)
+    assert lines[0] == pytest.approx((rows["before"] - rows["output"]).to_numpy())

@@ -29,6 +29,9 @@ OVERALL = "all"
 FEWEST = 40
 """Samples below which a record is only told of together with the others."""
 
+SMALLEST = 0.001
+"""The least p that is told."""
+
 TAPS = (0, 1, 2, 4, 8, 16)
 """Samples by which the input is late in what may follow it linearly."""
 
@@ -71,8 +74,13 @@ def residual_tests(views: Sequence[View], residuals: Sequence[Array]) -> list[Re
 
 def _told(test: ResidualTest) -> ResidualTest:
     verdict = "" if test.significant else "no evidence that "
-    share = f" ({test.share:.0%} of its variance)" if test.significant and test.share >= 0.005 else ""
-    return replace(test, words=f"{verdict}the residual {test.words}{share}, p = {test.corrected_p:.2g}")
+    share = f" ({100 * test.share:.0f} % of its variance)" if test.significant and test.share >= 0.005 else ""
+    return replace(test, words=f"{verdict}the residual {test.words}{share}, {p_in_words(test.corrected_p)}")
+
+
+def p_in_words(p: float) -> str:
+    """p = 0.023, or p < 0.001: below that its size says nothing more."""
+    return "p < 0.001" if p < SMALLEST else f"p = {p:.2g}"
 
 
 def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iterator[ResidualTest]:

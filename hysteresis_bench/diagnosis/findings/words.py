@@ -149,7 +149,7 @@ def headline(outcome: Outcome) -> str:
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
     if doubt != Doubt():
-        said += f" {' '.join(_of_the_law(outcome))}"
+        said += f" {' '.join(_of_the_law(outcome, unit))}"
     elif outcome.left.louder and outcome.leaves[0] <= WRONG:
         said += f" What was held out is missed by {rounded(outcome.leaves[1])} times the noise: something is lacking."
     elif outcome.unexplained:
@@ -160,20 +160,21 @@ def headline(outcome: Outcome) -> str:
     return f"{said} {outcome.left.shape}".rstrip()
 
 
-def _of_the_law(outcome: Outcome) -> Iterator[str]:
+def _of_the_law(outcome: Outcome, unit: str) -> Iterator[str]:
     """What a better law does, what all laws need, and what then only stands in for the law."""
     cause, agreed = outcome.cause, outcome.doubt.agreement
     if cause:
         better = f"{cause.model} with {listed(cause.effects)}" if cause.effects else f"{cause.model} alone"
         own = f"{outcome.model} with all that helps it" if outcome.adopted else outcome.model
         words = "Another law follows as well" if cause.as_well else "What is left is the law's"
-        yield f"{words}: {better} predicts what it did not see to {cause.unseen:.3g}, {own} to"
-        yield f"{cause.own:.3g}."
+        where = "parts of what was fitted, left out in turn," if outcome.alone else "fitted records left out in turn"
+        yield f"{words}: on {where} {better} leaves {cause.unseen:.3g}{unit}, {own} leaves {cause.own:.3g}{unit}."
     elif outcome.doubt.carrying:
         carried = f"{listed(outcome.doubt.carrying)} carries the loop, without which {outcome.model} has next to none:"
         yield f"{carried} no effect around this law, but another law."
     elif outcome.reaches:
-        yield "The law alone does not follow the data, and does with what is around it."
+        helping = "these effects" if outcome.named else "what helps"
+        yield f"{outcome.model} alone does not follow the data; with {helping} it does."
     else:
         yield "The law itself does not follow the data, and no other one here does clearly better."
     if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):

@@ -13,6 +13,7 @@ import pandas as pd
 
 from hysteresis_bench.diagnosis.laws.comparison import BASELINE
 from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, loops, residuals, waterfall
+from hysteresis_bench.report.diagnosis.in_print import in_print
 from hysteresis_bench.report.shared.blocks import Block, Cell, Figures, Heading, Table
 from hysteresis_bench.report.shared.text import NONE, Units, named, number, percent, sentence
 from hysteresis_bench.report.shared.theme import Picture
@@ -48,7 +49,7 @@ def errors_table(found: Mapping[str, Any], noise: float | None, units: Units, *,
         "Times smaller",
         "Times the noise",
     ]
-    note = f"Relative to the largest |output − offset| measured.{more} {sentence(found['noise']['words'])}"
+    note = f"Relative to the largest |output − offset| measured.{more} {in_print(sentence(found['noise']['words']))}"
     return Table("Errors before and after", header, rows, note)
 
 

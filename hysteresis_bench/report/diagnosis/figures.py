@@ -18,6 +18,10 @@ CUT = 3.0
 """Times the largest of the other errors from where the polynomial's bar is cut: the effects must stay visible."""
 
 
+VISIBLE = 0.01
+"""Share of what is drawn below which a band is no wider than a line."""
+
+
 class Bar(NamedTuple):
     """fitted : RMSE on the fitted records;  unseen : on what was not fitted, where it is told"""
 
@@ -42,11 +46,12 @@ def waterfall(folder: Path, bars: Sequence[Bar], *, units: Units, name: str = "w
 
     steps_in_words = ", ".join(f"{bar.label} {bar.fitted:.3g}" for bar in bars)
     without = bars[0].colour == WITHOUT
+    begins = "without memory, then of the law alone" if without else "bare model first"
+    takes = "the law or the effect" if without else "the effect"
     caption = (
-        "Error on the fitted records"
-        f"{': without memory, then of the law alone' if without else ', bare model first'}, each bar with the effects "
-        f"above it; grey is what {'the law or the effect' if without else 'the effect'} takes away. Diamonds: error on "
-        f"what was not fitted.{' The bar with an arrow goes on.' if _end(bars) < bars[0].fitted else ''}"
+        f"Error on the fitted records{':' if without else ','} {begins}, each bar with the effects above it; grey is "
+        f"what {takes} takes away. Diamonds: error on what was not fitted. Dashed: the noise in the data."
+        f"{' The bar with an arrow goes on.' if _end(bars) < bars[0].fitted else ''}"
     )
     height = 1.25 + 0.36 * len(bars)
     return picture(folder, name, (5.4, height), alt=f"RMSE step by step: {steps_in_words}.", caption=caption, draw=draw)
@@ -63,7 +68,12 @@ def draw_waterfall(axes: Any, bars: Sequence[Bar], units: Units) -> None:
         if bar.fitted > end:
             axes.plot(end, row, ">", color=bar.colour, markersize=11, zorder=3, clip_on=False)
         if bar.unseen is not None and bar.unseen <= end:
-            axes.plot(bar.unseen, row, "D", color=HELD_OUT, markersize=6, zorder=4, clip_on=False)
+            edge = {
+                "markersize": 7.5,
+                "markeredgecolor": "white",
+                "markeredgewidth": 1.2,
+            }  # seen on a bar of any colour
+            axes.plot(bar.unseen, row, "D", color=HELD_OUT, zorder=4, clip_on=False, **edge)
     axes.axvline(bars[-1].fitted, color=NOISE, linewidth=1.0, linestyle=(0, (4, 3)), zorder=1)
     columns = [("fitted", INK, {row: number(bar.fitted, 3) for row, bar in enumerate(bars)})]
     if unseen := {row: number(bar.unseen, 3) for row, bar in enumerate(bars) if bar.unseen is not None}:
@@ -115,7 +125,11 @@ def draw_loop(axes: Any, rows: pd.DataFrame, shown: Sequence[tuple[str, str, str
 def residuals(
     folder: Path, name: str, rows: pd.DataFrame, *, noise: float, units: Units, caption: str
 ) -> list[Picture]:
-    """Measured minus simulated of one record, over time and over input, before and after; noise : RMS, shaded."""
+    """Simulated minus measured of one record, over time and over input, before and after; noise : RMS, shaded."""
+    seen = _left(rows)
+    thin = 4.0 * noise < VISIBLE * (max(map(max, seen)) - min(map(min, seen)))
+    side = "twice the noise to either side"
+    band = f"a band of {side} would be thinner than a line" if thin else f"shaded: {side}"
 
     def drawn(along: str) -> Picture:
         def draw(figure: Any) -> None:
@@ -123,20 +137,25 @@ def residuals(
             draw_residual(axes, rows, along, noise, units)
             legend(axes)
 
-        told = f"{caption} Residual over {along}; shaded: twice the noise to either side."
+        told = f"{caption} Simulated minus measured over {along}; {band}."
         return picture(folder, f"{name}-{along}", (COLUMN, 2.6), alt=told, caption=told, draw=draw)
 
     return [drawn("time"), drawn("input")]
 
 
 def draw_residual(axes: Any, rows: pd.DataFrame, along: str, noise: float, units: Units) -> None:
-    """Measured minus simulated over a column, before and after; noise : RMS, twice of which is shaded"""
-    axes.axhspan(-2 * noise, 2 * noise, color=GRID, alpha=0.7, linewidth=0)
+    """Simulated minus measured over a column, before and after; noise : RMS, twice of which is shaded"""
+    axes.axhspan(-2 * noise, 2 * noise, color=NOISE, alpha=0.22, linewidth=0)
     axes.axhline(0, color=INK, linewidth=0.6)
-    for which, label, colour in stages(rows):
-        axes.plot(rows[along], rows["output"] - rows[which], color=colour, linewidth=0.8, label=label)
-    axes.set(xlabel=named(along.capitalize(), units, along), ylabel=named("Residual", units, "output"))
+    for (_, label, colour), left in zip(stages(rows), _left(rows), strict=True):
+        axes.plot(rows[along], left, color=colour, linewidth=0.8, label=label)
+    axes.set(xlabel=named(along.capitalize(), units, along), ylabel=named("Error", units, "output"))
     axes.locator_params(axis="x", nbins=5)
+
+
+def _left(rows: pd.DataFrame) -> list[pd.Series]:
+    """Simulated minus measured, as everywhere in the reports, of each of the `stages`."""
+    return [rows[which] - rows["output"] for which, _, _ in stages(rows)]
 
 
 def stages(rows: pd.DataFrame) -> list[tuple[str, str, str]]:

@@ -42,7 +42,7 @@ def draw_diagnosis(path: Path, folder: Path) -> None:
         draw_residual(residual, rows, "time", found["floor"], units)
         loop.set_title(f"{rows['record'].iloc[0]} ({rows['role'].iloc[0]})")
         loop.legend()
-        residual.set_title("Measured minus simulated")
+        residual.set_title("Simulated minus measured")
         below.align_ylabels()
 
     save_figure(path, bars + BELOW, draw)

@@ -21,6 +21,7 @@ from hysteresis_bench.report.diagnosis.before_after import (
     ties_in_words,
 )
 from hysteresis_bench.report.diagnosis.figures import family_curve
+from hysteresis_bench.report.diagnosis.in_print import first_sentence, in_print
 from hysteresis_bench.report.diagnosis.tables import added_table, agreement_table, candidates_table, tests_tables
 from hysteresis_bench.report.laws.memory import memory_section
 from hysteresis_bench.report.laws.structure import structure_section
@@ -58,13 +59,21 @@ def write_diagnosis_page(folder: Path, files_kept: bool = True) -> Path:
         _title(found),
         f"Diagnosis of {listed(data or found['split']['fitted'])}",
         [section for section in _sections(folder, kept) if section],
-        [Paragraph(found["headline"], "strong"), *_answers(found)],
+        [*in_short(found["headline"]), *map(in_print, _answers(found))],
         answers="The verdict",
-        warnings=besides_ties(found["warnings"], found["ties"]),
+        warnings=[in_print(warning) for warning in besides_ties(found["warnings"], found["ties"])],
         warned="Before you believe it",
         files_kept=files_kept,
     )
     return page.write(folder / FILE)
+
+
+def in_short(headline: str) -> Iterator[Block]:
+    """A headline: its first sentence strong, the others as they are."""
+    first, others = first_sentence(in_print(headline))
+    yield Paragraph(first, "strong")
+    if others:
+        yield others
 
 
 def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
@@ -79,13 +88,13 @@ def _sections(folder: Path, kept: KeptDiagnosis) -> Iterator[Section | None]:
     if laws := found["laws"]:
         drawn = laws_figure(folder, laws["laws"], floor=laws["floor"], units=units)
         table = laws_table(laws["laws"], found["model"], laws["floor"], units)
-        yield Section("laws", "Which law", [laws["words"], Figures([drawn]), table])
+        yield Section("laws", "Which law", [in_print(laws["words"]), Figures([drawn]), table])
         yield structure_section(folder, told, read_curves(folder), units) if (told := laws["structure"]) else None
     yield _memory(folder, kept)
     yield _families(folder, found["families"])
     yield _records(folder, kept)
     yield _considered(kept)
-    yield Section("advice", "What to measure next", [found["advice"]]) if found["advice"] else None
+    yield Section("advice", "What to measure next", [in_print(found["advice"])]) if found["advice"] else None
     overall, single = tests_tables(found["residual"])
     left: list[Block] = [*description(found), overall]
     if single.rows:
@@ -126,7 +135,7 @@ def _families(folder: Path, families: Sequence[Mapping[str, Any]]) -> Section | 
     if not families:
         return None
     drawn = [family_curve(folder, found) for found in families]
-    words = [sentence(found["words"]) for found in families]
+    words = [in_print(sentence(found["words"])) for found in families]
     return Section("families", "What no formula here fits", [Bullets(words), Figures(drawn)])
 
 
@@ -195,12 +204,15 @@ def _shown(records: Sequence[pd.DataFrame]) -> list[pd.DataFrame]:
 def _considered(kept: KeptDiagnosis) -> Section:
     found = kept.diagnosis
     units = kept.model["units"]
-    blocks: list[Block] = [candidates_table(found["candidates"], units)]
+    blocks: list[Block] = [candidates_table(found["candidates"], units, kept.model)]
     if agreed := found["agreement"]:
         blocks.append(agreement_table(agreed, found["floor"], units))
     if found["ties"]:
-        blocks += [Heading("What these data cannot tell apart"), Bullets(ties_in_words(found["ties"]))]
-    impossible = [f"{c['effect']}: {c['reason']}." for c in found["candidates"] if not c["applicable"]]
+        blocks += [
+            Heading("What these data cannot tell apart"),
+            Bullets([in_print(words) for words in ties_in_words(found["ties"])]),
+        ]
+    impossible = [in_print(f"{c['effect']}: {c['reason']}.") for c in found["candidates"] if not c["applicable"]]
     if impossible:
         blocks.append(Details("Effects that these data or this model cannot show", [Bullets(impossible)]))
     around = [*found["effects"], *found["stand_ins"], *([found["offset"]] if found["offset"] else [])]
@@ -223,7 +235,7 @@ def _facts(kept: KeptDiagnosis) -> list[tuple[str, str]]:
         ("Fitted", listed(split["fitted"], 12)),
         ("Held out", listed(split["held_out"], 12)),
         ("Split", str(split["how"])),
-        ("Noise", found["noise"]["words"]),
+        ("Noise", in_print(found["noise"]["words"])),
         *((f"SHA-256 of {name}", sha) for name, sha in zip(data["files"], data["sha256"], strict=True)),
         *kept.model["created_by"].items(),
     ]

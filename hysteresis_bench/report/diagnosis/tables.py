@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
 from hysteresis_bench.diagnosis.findings.diagnosis_file import ADOPTED, TIED
+from hysteresis_bench.report.diagnosis.in_print import in_print
 from hysteresis_bench.report.shared.blocks import ESTIMATE_HEADER, ESTIMATE_NOTE, Cell, Table, estimate_cells
 from hysteresis_bench.report.shared.text import (
     NONE,
@@ -22,8 +24,9 @@ from hysteresis_bench.report.shared.text import (
 TONES = {ADOPTED: "good", TIED: "bad"}
 
 
-def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units) -> Table:
-    """Every effect that the data and the model can show."""
+def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units, model: Mapping[str, Any]) -> Table:
+    """Every effect that the data and the model can show; model : the content of model.json"""
+    unknown = undetermined(model)
     rmse = named("RMSE", units, "output")
     return Table(
         "Effects considered",
@@ -34,15 +37,17 @@ def candidates_table(candidates: Sequence[Mapping[str, Any]], units: Units) -> T
             "p",
             "Clear by",
             "Explains",
-            "Its parameters",
+            "Its parameters, in the search",
             "Tied with",
         ],
-        [_candidate(candidate) for candidate in candidates if candidate["applicable"]],
+        [_candidate(candidate, unknown) for candidate in candidates if candidate["applicable"]],
         note="An adopted effect is judged against the final model without it, any other against the final model with "
         "it. p of the nested-model test or of blocks of samples that were left out of the fit, twice the smaller one, "
         "before the correction for the number of candidates. Clear by: how many standard errors it wins on these "
         "blocks. Explains: its share of the mean square over the noise that is left without it; what explains less "
-        "than half is not named, as it may be a part of what is wrong for another reason.",
+        "than half is not named, as it may be a part of what is wrong for another reason. Its parameters are of the "
+        "fit that the search judged it by, to thinned records; the final fit, to all samples, is in the table below, "
+        "and differs where parameters make up for each other.",
     )
 
 
@@ -68,13 +73,27 @@ def agreement_table(agreed: Mapping[str, Any], floor: float, units: Units) -> Ta
     )
 
 
-def _candidate(candidate: Mapping[str, Any]) -> list[str | Cell]:
+def undetermined(model: Mapping[str, Any]) -> set[str]:
+    """EFFECT.PARAMETER of the final fit whose standard error is as large as the value, or that the data cannot tell."""
+    estimates = {
+        f"{effect['effect']}.{name}": estimate
+        for effect in model["effects"]
+        for name, estimate in effect["parameters"].items()
+    }
+    return {name for name, each in estimates.items() if _unsure(each["value"], each["standard_error"])}
+
+
+def _unsure(value: float, error: float | None) -> bool:
+    return error is None or not math.isfinite(error) or error > abs(value)
+
+
+def _candidate(candidate: Mapping[str, Any], unknown: set[str]) -> list[str | Cell]:
     adopted, judgement = candidate["adopted"], candidate["judgement"]
-    values = [
-        f"{name} {number(value, 3)}"
-        f"{' (at its bound)' if any(key.endswith(name) for key in candidate['at_bound']) else ''}"
-        for name, value in candidate["parameters"].items()
-    ]
+    values = []
+    for name, value in candidate["parameters"].items():
+        bound = " (at its bound)" if any(key.endswith(name) for key in candidate["at_bound"]) else ""
+        doubt = " (not determined)" if f"{candidate['effect']}.{name}" in unknown else ""
+        values.append(f"{name} {number(value, 3)}{bound}{doubt}")
     return [
         Cell(candidate["effect"], strong=adopted),
         Cell(judgement, TONES.get(judgement, "quiet"), strong=adopted),
@@ -99,7 +118,10 @@ def added_table(model: Mapping[str, Any], effects: Sequence[str]) -> Table | Non
     rows = [
         estimate_cells(name, each["value"], each["standard_error"], unit=each["unit"], digits=5) for name, each in found
     ]
-    return Table("Parameters that came with the effects", ESTIMATE_HEADER, rows, ESTIMATE_NOTE) if rows else None
+    note = f"Of the final fit, to all samples. {ESTIMATE_NOTE}"
+    if unsure := [name for name, each in found if _unsure(each["value"], each["standard_error"])]:
+        note += f" The effect is needed, but these data do not tell the value of {listed(unsure)}: it is no result."
+    return Table("Parameters that came with the effects", ESTIMATE_HEADER, rows, note) if rows else None
 
 
 def tests_tables(residual: Mapping[str, Sequence[Mapping[str, Any]]]) -> tuple[Table, Table]:
@@ -120,7 +142,7 @@ def tests_tables(residual: Mapping[str, Sequence[Mapping[str, Any]]]) -> tuple[T
                 Cell(probability(first["p_value"]) if first else NONE, "bad" if first and first["significant"] else ""),
                 Cell(probability(test["p_value"]), "bad" if test["significant"] else ""),
                 Cell(percent(test["share"], 2)),
-                Cell(sentence(test["words"]), "prose"),
+                Cell(in_print(sentence(test["words"])), "prose"),
             ]
         )
     header = ["Looked for", "p before", "p after", "Of its variance", "After, in words"]

@@ -8,27 +8,19 @@ from pathlib import Path
 import numpy as np
 
 from hysteresis_bench.diagnosis_study.case import Case
-from hysteresis_bench.diagnosis_study.confusion import NOTHING, confusion
 from hysteresis_bench.diagnosis_study.results import CASES, CONFUSION, STUDY, read_cases
 from hysteresis_bench.diagnosis_study.study_file import read_diagnosis_study
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.report.diagnosis_study.figures import confusion_matrix, reliability_diagram
-from hysteresis_bench.report.diagnosis_study.reliability import Bin, reliability
+from hysteresis_bench.report.diagnosis_study.answer import ANOTHER, OWN, Halves, answer_in_words, shares_table
+from hysteresis_bench.report.diagnosis_study.confused import confusion_blocks
+from hysteresis_bench.report.diagnosis_study.figures import shown
 from hysteresis_bench.report.diagnosis_study.settled import settled_section
-from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Figures, Heading, Table
+from hysteresis_bench.report.diagnosis_study.sure import sure_section
+from hysteresis_bench.report.shared.blocks import Block, Bullets, Cell, Table
 from hysteresis_bench.report.shared.page import Page, Section, files_beside
-from hysteresis_bench.report.shared.text import NONE, listed, number, percent, whole
-from hysteresis_bench.statistics import wilson
+from hysteresis_bench.report.shared.text import NONE, listed, number, sentence, whole
 
 FILE = "report.html"
-
-OWN, ANOTHER = "Where the hysteresis is the model's own", "Where the hysteresis is not the model's own"
-
-GOOD = 1.15
-"""RMSE over noise up to which records that were neither fitted nor held out count as predicted."""
-
-SEEN = 2.0
-"""RMSE of the bare model over noise from which what is hidden is big enough to be asked for."""
 
 
 def write_diagnosis_study_page(folder: Path) -> Path:
@@ -37,62 +29,35 @@ def write_diagnosis_study_page(folder: Path) -> Path:
     Raises UserError where no case is there.
     """
     study, _ = read_diagnosis_study(folder / STUDY)
-    known, others = _halves(folder)
-    cases = [*known, *others]
+    halves = _halves(folder)
+    cases = [*halves.own, *halves.another]
     if not cases:
         raise UserError(
             str(folder), f"holds no cases: neither its folder cases nor {CASES} has any. Run the study again."
         )
-    confusions = _confusion(folder, "known", known) + _confusion(folder, "rigs", others)
+    confusions = confusion_blocks(folder, "known", sentence(OWN).rstrip("."), halves.own)
+    confusions += confusion_blocks(folder, "rigs", sentence(ANOTHER).rstrip("."), halves.another)
     benches = _benches([bench.name for bench in study.bench], cases)
-    wrong = _wrong([case for case in cases if case.status == "done" and not case.right_by_family])
+    wrong = _wrong([case for case in cases if case.status == "done"])
     failures = _failures([case for case in cases if case.status != "done"])
     sections = [
         Section("confusion", "What was hidden, and what was claimed", confusions),
-        *_sure(folder, cases),
+        *sure_section(folder, cases),
         *settled_section(cases),
         Section("benches", "The error, before and after", [benches]),
         *([Section("wrong", "Where it went wrong", [wrong])] if wrong.rows else []),
         *([Section("failures", "What did not finish", [failures])] if failures.rows else []),
         _how(study.notes),
     ]
-    page = Page(study.title, f"A study of diagnosis, {len(cases)} cases", sections, _answer(known, others))
+    shares = shares_table(halves)
+    said: list[Block] = [*answer_in_words(study.title, halves), *([shares] if shares else [])]
+    page = Page(study.title, f"A study of diagnosis, {len(cases)} cases", sections, said)
     return page.write(folder / FILE)
 
 
 def answer(folder: Path) -> list[str]:
     """The answer in sentences."""
-    return _answer(*_halves(folder))
-
-
-def _sure(folder: Path, cases: Sequence[Case]) -> list[Section]:
-    """Were the probabilities right? No section where none was told."""
-    bins = reliability(cases)
-    if not bins:
-        return []
-    count = sum(one.claims for one in bins)
-    error = sum(one.claims * abs(one.right / one.claims - one.told) for one in bins) / count
-    header = ["Probability told", "Claims", "Mean told", "Right", "95\u202f% interval"]
-    rows = [_bin(one) for one in bins]
-    note = (
-        "Right: of the claims, those whose effect was hidden, or one tied with it, or of whose family one was hidden "
-        "where the family was told with its curve. Intervals are Wilson's."
-    )
-    told = f"{count} claims; the mean gap between what was told and what was right is {percent(error, 2)}."
-    return [
-        Section(
-            "sure",
-            "How sure, and how right",
-            [told, Figures([reliability_diagram(folder, bins)]), Table("Claims by probability", header, rows, note)],
-        )
-    ]
-
-
-def _bin(one: Bin) -> list[str | Cell]:
-    low, high = wilson(one.right, one.claims)
-    share = Cell(percent(one.right / one.claims), "good" if low <= one.told <= high else "bad")
-    bounds = f"{percent(one.low)} to {percent(one.high)}"
-    return [bounds, whole(one.claims), percent(one.told), share, f"{percent(low)} to {percent(high)}"]
+    return answer_in_words(read_diagnosis_study(folder / STUDY)[0].title, _halves(folder))
 
 
 def _how(notes: Sequence[str]) -> Section:
@@ -105,76 +70,6 @@ def _how(notes: Sequence[str]) -> Section:
         files_beside({CASES: "a row a case", CONFUSION: "hidden against claimed", STUDY: "the study"}),
     ]
     return Section("definitions", "How it was made", blocks)
-
-
-def _answer(known: Sequence[Case], others: Sequence[Case]) -> list[str]:
-    found = []
-    for where, cases in ((OWN, known), (ANOTHER, others)):
-        done = [case for case in cases if case.status == "done"]
-        hidden = [case for case in done if case.hidden]
-        if not done:
-            continue
-        clean = [case for case in done if not case.hidden]
-        parts = []
-        if hidden:
-            parts.append(
-                f"in {_share([case.right for case in hidden])} of the cases with something hidden every effect was "
-                "named, or tied with one that these data cannot tell from it, and nothing else was claimed"
-            )
-            if any(case.family for case in hidden):
-                parts.append(
-                    "counting those where no formula fits and the right family was named with its curve, in "
-                    f"{_share([case.right_by_family for case in hidden])}"
-                )
-            big = [case for case in hidden if (case.unfitted or 0.0) >= SEEN]
-            if len(big) < len(hidden):
-                parts.append(f"of those that at least double the bare model's error, {_share([c.right for c in big])}")
-        if clean:
-            parts.append(
-                f"where nothing is hidden something was claimed in {_share([bool(case.claimed) for case in clean])}"
-            )
-        fresh = [case.fresh for case in done if case.fresh is not None]
-        if fresh:
-            parts.append(
-                f"records that were neither fitted nor held out were predicted to within {GOOD:g} times the noise in "
-                f"{_share([value <= GOOD for value in fresh])}"
-            )
-        found.append(f"{where}: {'; '.join(parts)}.")
-    return found or ["No case has finished."]
-
-
-def _share(hits: Sequence[bool]) -> str:
-    """12 of 13 (92 %, 67 to 99 %), with Wilson's interval."""
-    if not hits:
-        return "none of none"
-    low, high = wilson(sum(hits), len(hits))
-    mean = sum(hits) / len(hits)
-    shares = [f"{100 * share:.0f}\u202f%" for share in (mean, low, high)]
-    return f"{sum(hits)} of {len(hits)} ({shares[0]}; 95\u202f% interval {shares[1]} to {shares[2]})"
-
-
-def _confusion(folder: Path, name: str, cases: Sequence[Case]) -> list[Block]:
-    """Figure and table under their heading; nothing without a case that is done."""
-    table = confusion(cases)
-    if table.empty:
-        return []
-    rows = sorted(table.index, key=lambda effect: (effect == NOTHING, effect))
-    columns = sorted(table.columns, key=lambda effect: (effect == NOTHING, effect))
-    counts = {(row, column): int(table.at[row, column]) for row in rows for column in columns if table.at[row, column]}
-    heading = OWN if name == "known" else ANOTHER
-    drawn = confusion_matrix(folder, f"confusion-{name}", counts, rows=rows, columns=columns)
-    lines: list[list[str | Cell]] = [
-        [row, *(_count(row, column, counts.get((row, column), 0)) for column in columns)] for row in rows
-    ]
-    note = "An effect that was missed stands under what was claimed in its place, or under nothing."
-    counted = Table("Hidden (rows) against claimed (columns)", ["Hidden", *columns], lines, note)
-    return [Heading(heading), Figures([drawn]), counted]
-
-
-def _count(row: str, column: str, count: int) -> Cell:
-    if not count:
-        return Cell(NONE, "quiet")
-    return Cell(str(count), "good" if column in row.split("|") else "bad")
 
 
 def _benches(names: Sequence[str], cases: Sequence[Case]) -> Table:
@@ -196,12 +91,16 @@ def _benches(names: Sequence[str], cases: Sequence[Case]) -> Table:
         "Bench",
         "Right",
         "Right, or its family",
-        "Held out, before",
-        "Held out, after",
-        "Fresh, after",
+        "Held-out records, before",
+        "Held-out records, after",
+        "Other records, after",
         "Seconds",
     ]
-    return Table("Bench by bench", header, rows, note="Median RMSE over the noise; 1 is as good as it gets.")
+    note = (
+        "RMSE over the noise, medians; about 1: at the noise, a little below it by chance. Other records were neither "
+        "fitted nor held out."
+    )
+    return Table("Bench by bench", header, rows, note=note)
 
 
 def _median(values: Sequence[float | None]) -> float | None:
@@ -210,6 +109,7 @@ def _median(values: Sequence[float | None]) -> float | None:
 
 
 def _wrong(cases: Sequence[Case]) -> Table:
+    """What is right neither by name nor by family; the note counts those that are right by family alone."""
     rows: list[list[str | Cell]] = [
         [
             f"{case.bench}, {case.number}",
@@ -221,13 +121,21 @@ def _wrong(cases: Sequence[Case]) -> Table:
             number(case.after, 3),
         ]
         for case in cases
+        if not case.right_by_family
     ]
-    header = ["Case", "Hidden", "Claimed", "Missed", "Extra", "Verdict", "Bare, over noise", "Held out, over noise"]
-    return Table("Cases that went wrong", header, rows)
+    header = ["Case", "Hidden", "Claimed", "Missed", "Extra", "Verdict"]
+    header += ["Fitted records, bare model", "Held-out records, after"]
+    note = "The last two: RMSE over the noise; about 1: at the noise."
+    if by_family := sum(case.right_by_family and not case.right for case in cases):
+        note += (
+            f" Not listed: {whole(by_family)} more that are wrong by name and right by family, told with its curve; "
+            f"they are in {CASES}."
+        )
+    return Table("Cases that went wrong", header, rows, note)
 
 
 def _names(text: str) -> str:
-    return listed(text.split()) if text else NONE
+    return listed([shown(name) for name in text.split()]) if text else NONE
 
 
 def _failures(cases: Sequence[Case]) -> Table:
@@ -237,9 +145,12 @@ def _failures(cases: Sequence[Case]) -> Table:
     return Table("Cases without a diagnosis", ["Case", "Status", "Reason"], rows)
 
 
-def _halves(folder: Path) -> tuple[list[Case], list[Case]]:
+def _halves(folder: Path) -> Halves:
     """Cases where the hysteresis is the model's own, as the rig is built with that model, and the others."""
     benches = {bench.name: bench for bench in read_diagnosis_study(folder / STUDY)[0].bench}
     own = {name for name, bench in benches.items() if bench.settings.get("model") == bench.model}
     cases = [case for case in read_cases(folder) if case.bench in benches]
-    return [case for case in cases if case.bench in own], [case for case in cases if case.bench not in own]
+    return Halves(
+        [case for case in cases if case.bench in own],
+        [case for case in cases if case.bench not in own],
+    )

@@ -1,7 +1,8 @@
 """How often claims were right, against the probability that was told with them.
 
 In bins of equally many claims [1]: most claims are told with much the same probability, and bins of equal width would
-have one of them full and the others empty.
+have one of them full and the others empty. Ours: claims told alike share a bin, as cutting through them would show the
+same probability several times; the bins are then fewer, and not of one size.
 
 [1] K. Nguyen, B. O'Connor, Posterior calibration and exploratory analysis for natural language processing models,
 EMNLP (2015) 1587.
@@ -18,8 +19,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.diagnosis_study.case import Case
 
 BINS, LEAST = 5, 10
-"""So many bins at most, of so many claims at least where there are as many: of fewer an interval says next to nothing.
-With half and with twice as many, no study of more than 100 claims has other bins."""
+"""So many bins at most, of so many claims at least, where there are as many: of fewer an interval says little."""
 
 
 @dataclass(frozen=True)
@@ -40,15 +40,27 @@ class Bin:
 def reliability(cases: Sequence[Case]) -> list[Bin]:
     """Over the claims of all finished cases, from the least probable to the most; none without claims."""
     claims = [claim for case in cases if case.status == "done" for claim in _claims(case)]
-    claims.sort(key=itemgetter(0))  # by nothing else: of claims told alike the wrong ones come no earlier
-    count = min(BINS, max(1, len(claims) // LEAST))
-    cuts = [len(claims) * k // count for k in range(count + 1)]
-    bins = [claims[first:end] for first, end in pairwise(cuts)]
+    claims.sort(key=itemgetter(0))
+    bins = [claims[first:end] for first, end in pairwise(_cuts([told for told, _ in claims]))]
     return [
         Bin(one[0][0], one[-1][0], len(one), sum(told for told, _ in one) / len(one), sum(right for _, right in one))
         for one in bins
-        if one
     ]
+
+
+def _cuts(told: Sequence[float]) -> list[int]:
+    """Where the bins of these rising probabilities begin and end: between unequal ones only, next to where bins of
+    equally many claims would, and at least LEAST claims apart."""
+    if not told:
+        return []
+    count = min(BINS, max(1, len(told) // LEAST))
+    unequal = [place for place in range(1, len(told)) if told[place - 1] < told[place]]
+    cuts = [0]
+    for aim in (len(told) * k // count for k in range(1, count) if unequal):
+        _, nearest = min((abs(place - aim), place) for place in unequal)
+        if nearest - cuts[-1] >= LEAST and len(told) - nearest >= LEAST:
+            cuts.append(nearest)
+    return [*cuts, len(told)]
 
 
 def _claims(case: Case) -> list[tuple[float, bool]]:

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from hysteresis_bench.diagnosis_study.case import Case
+from hysteresis_bench.report.diagnosis_study.sure import tone
 from hysteresis_bench.report.shared.blocks import Cell, Table
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import percent, whole
@@ -89,7 +90,7 @@ def _rows(ties: Sequence[Fate]) -> list[list[str | Cell]]:
                 f"{percent(low)} to {percent(min(high, 1.0))}",
                 whole(len(inside)),
                 percent(mean, 2),
-                Cell(percent(apart / len(inside), 2), "good" if least <= mean <= most else "bad"),
+                Cell(percent(apart / len(inside), 2), tone(mean, least, most)),
                 f"{percent(least, 2)} to {percent(most, 2)}",
                 whole(sum(tie.became == "right" for tie in inside)),
                 Cell(whole(wrong), "bad" if wrong else ""),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from dataclasses import replace
 
@@ -13,7 +14,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
 from hysteresis_bench.diagnosis.evidence.autocorrelated import autoregression, effective_samples, f_test, overlooked
 from hysteresis_bench.diagnosis.evidence.noise import Noise
-from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, residual_tests
+from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest, p_in_words, residual_tests
 from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.signals import INDEX, Record
 
@@ -259,3 +260,17 @@ def test_noise_of_a_measured_input_is_no_dependence_on_its_rate() -> None:
         record = Record(TIME, SINE + own, SINE)
         hits += "rate" in found(told_of([record], [-2.0 * own], [UNIT]))
     assert hits <= 1
+
+
+def test_a_p_too_small_to_mean_more_is_told_as_such():
+    assert [p_in_words(p) for p in (0.0, 2.8e-204, 0.00099, 0.001, 0.0234)] == [
+        *3 * ["p < 0.001"],
+        "p = 0.001",
+        "p = 0.023",
+    ]
+
+
+def test_a_finding_is_told_with_the_share_it_explains():
+    drift = 20.0 * TIME + np.random.default_rng(1).standard_normal(TIME.size)
+    told = {test.name: test.words for test in told_of([RECORD], [drift], [UNIT])}["time"]
+    assert re.fullmatch(r"the residual drifts in time \(9\d % of its variance\), p < 0\.001", told)

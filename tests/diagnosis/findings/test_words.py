@@ -4,6 +4,7 @@ from dataclasses import replace
 from types import SimpleNamespace as Of
 
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement
+from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
 from hysteresis_bench.diagnosis.search.fallback import Fallback
@@ -74,13 +75,25 @@ def test_free_forms_far_from_the_noise_stand_in_for_the_law_and_what_is_beside_t
 
 def test_a_law_that_comes_down_to_the_noise_is_not_said_to_fail():
     needs = {"dahl": ("input-lag",), "lugre": ()}
+    whatever = Doubt(agreement=Agreement(needs, {}, {"input-lag": ()}))
+    named = headline(replace(outcome_of(("input-lag",), needs, 0.1), doubt=whatever))
+    assert "dahl alone does not follow the data; with these effects it does." in named
     far, near = (headline(outcome_of(("input-lag",), needs, rmse)) for rmse in (0.3, 0.1))
     assert "The law itself does not follow the data, and no other one here does clearly better." in far
-    assert "The law alone does not follow the data, and does with what is around it." in near
+    assert "dahl alone does not follow the data; with what helps it does." in near
     assert "itself" not in near
     far, near = (" ".join(warnings(outcome_of(("input-lag",), needs, rmse=rmse))) for rmse in (0.3, 0.1))
     assert "The final system still leaves 3 times the noise" in far
     assert "still leaves" not in near
+
+
+def test_errors_on_records_left_out_are_told_as_such_with_their_unit():
+    cause = Cause("lugre", ("creep",), 0.05, 0.2)
+    outcome = replace(outcome_of(("creep",), {}), doubt=Doubt(cause=cause))
+    said = headline(outcome)
+    left_out = "on fitted records left out in turn lugre with creep leaves 0.05 um, dahl with all that helps it leaves"
+    assert f"What is left is the law's: {left_out} 0.2 um." in said
+    assert "on parts of what was fitted, left out in turn, lugre with creep" in headline(replace(outcome, alone=True))
 
 
 def test_what_does_not_predict_the_held_out_records_is_not_said_to_explain_the_data():
