@@ -22,6 +22,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
 from hysteresis_bench.diagnosis.evidence.memoryless import Law, Spline, Thinned, lagged_laws, own_delays, thinned
+from hysteresis_bench.diagnosis.evidence.residual_tests import p_in_words
 from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.fit.unseen.blocks import blocked
 
@@ -135,16 +136,16 @@ def memory(records: Sequence[View]) -> Memory:
 
 
 def _words(needed: bool, p: float, explained: float, law: str, left: float, ambiguous: bool, unclear: bool) -> str:
-    without = f"the best law without memory ({law}) leaves {left:.2%} of the output's range"
+    without = f"the best law without memory ({law}) leaves {100 * left:.2f} % of the output's range"
     if needed:
         doubt = "; a long lag would draw the same loop: another speed or amplitude would tell" if ambiguous else ""
-        return f"{without}; branches explain {explained:.2%} (p = {p:.2g}): hysteresis is needed{doubt}"
+        return f"{without}; branches explain {100 * explained:.2f} % ({p_in_words(p)}): hysteresis is needed{doubt}"
     if unclear:
         worse = "far more than the noise, and branches predict no better"
         return f"{without}, {worse}: hysteresis cannot be judged while something else is missing"
     if p < LEVEL:
-        return f"{without}; branches explain only {explained:.2%}: no hysteresis is needed"
-    return f"{without}; branches predict no better (p = {p:.2g}): no hysteresis is needed"
+        return f"{without}; branches explain only {100 * explained:.2f} %: no hysteresis is needed"
+    return f"{without}; branches predict no better ({p_in_words(p)}): no hysteresis is needed"
 
 
 def _telling(views: Sequence[Thinned]) -> bool:

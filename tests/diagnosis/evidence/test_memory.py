@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -180,3 +181,8 @@ def test_hysteretic_materials_need_it(real_data: Path, folder: str, timed: bool)
     if folder.startswith("piezo"):
         found = [record.skip(0.5) for record in found]
     assert memory(found).needed
+
+
+def test_shares_and_chances_are_told_as_the_pages_tell_them() -> None:
+    told = memory(records(relays, [SINE, NESTED], 0.001)).words
+    assert re.search(r"leaves \d+\.\d\d % of the output's range; branches explain \d+\.\d\d % \(p < 0\.001\)", told)
