@@ -6,7 +6,7 @@ NEWEST ?=
 SUBJECTS ?= effects bouc_wen free_energy kernels resources evidence start_up runner
 BIN    := .venv/bin
 
-.PHONY: install study test test-long test-newest docs benchmark torture fuzz clean
+.PHONY: install study test test-long test-newest schemas docs benchmark torture fuzz clean
 
 install: .venv/installed
 
@@ -26,6 +26,10 @@ test-long: .venv/installed-test
 # NEWEST: arguments for pytest, such as what to leave out.
 test-newest: .venv/installed
 	.ci/test-newest -n auto $(NEWEST)
+
+# The JSON schemas of study, model and diagnosis files, from the forms in hysteresis_bench/schemas/.
+schemas: .venv/installed
+	$(BIN)/python -c "from hysteresis_bench.schemas.forms import write_schemas; write_schemas()"
 
 docs: .venv/installed-docs
 	$(BIN)/mkdocs build --strict --config-file docs/mkdocs.yml

@@ -39,6 +39,11 @@ class Parameter:
         """The same parameter in another box."""
         return replace(self, lower=float(lower), upper=float(upper), scaling=scaling or self.scaling)
 
+    def bounded(self, lower: float, upper: float, scaling: Scaling | None = None) -> Parameter:
+        """The same parameter in a box that somebody asks for: linear where it reaches down to 0, which has no
+        logarithm, unless a scaling is asked for as well."""
+        return self.within(lower, upper, scaling or ("linear" if lower <= 0 else None))
+
     def unit_in(self, units: Mapping[str, str]) -> str:
         """The unit with those of the data put in; a quantity without a unit goes by its own name."""
         return self.unit.format(**{name: name if unit == "1" else unit for name, unit in units.items()})

@@ -226,6 +226,10 @@ class Dataset:
     def names(self) -> tuple[str, ...]:
         return tuple(record.name for record in self.records)
 
+    def role(self, record: Record) -> str:
+        """What a record of it is for: fitted or held-out."""
+        return "held-out" if record.name in self.held_out_names else "fitted"
+
     def split(self, held_out: Sequence[str]) -> Dataset:
         """The same records with these held out. Raises ValueError for an unknown name."""
         unknown = [name for name in held_out if name not in self.names]
@@ -240,7 +244,7 @@ class Dataset:
         rows = [
             {
                 "record": record.name,
-                "role": "held-out" if record.name in self.held_out_names else "fitted",
+                "role": self.role(record),
                 "samples": record.time.size,
                 "history": record.history,
                 "duration": float(record.time[-1] - record.time[0]),

@@ -18,8 +18,8 @@ from hysteresis_bench.diagnosis.findings.diagnosis_file import write_diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset
-from hysteresis_bench.study.afterwards.closing_files import CLOSING, DONE, OUTCOME, read_closing
 from hysteresis_bench.study.execution.pool import Pool, Work, at_once
+from hysteresis_bench.study.kept_files.closing_files import CLOSING, DONE, OUTCOME, read_closing
 from hysteresis_bench.study.kept_files.reader import Reader
 from hysteresis_bench.study.lock import alone
 from hysteresis_bench.study.problems import closing_dataset

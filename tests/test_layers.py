@@ -59,6 +59,54 @@ def test_imports_go_downward_only():
     assert not upward
 
 
+def is_room(folder: Path) -> bool:
+    """Has it modules and no rooms within?"""
+    return not any((one / "__init__.py").exists() for one in folder.iterdir() if one.is_dir())
+
+
+def place_of(path: Path) -> str:
+    """The room that a module stands in; the module itself where there are rooms beside it."""
+    place = path.parent if is_room(path.parent) else path.with_suffix("")
+    return ".".join(place.relative_to(PACKAGE).parts)
+
+
+def neighbours(path: Path) -> set[str]:
+    """Places that a module imports from, for its types too."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("hysteresis_bench"):
+            base = PACKAGE.joinpath(*(node.module or "").split(".")[1:])
+            names = [alias.name for alias in node.names] + ([] if base == PACKAGE else ["__init__"])
+            files = (base.with_suffix(".py"), *(base / f"{name}.py" for name in names))
+            found |= {place_of(file) for file in files if file.exists()}
+    return found - {place_of(path)}
+
+
+def ring(graph: dict[str, set[str]]) -> list[str]:
+    """Places each of which imports the next one, and the last one the first; empty where there are none."""
+    left = graph
+    while ended := {place for place, others in left.items() if not others & {*left}}:
+        left = {place: others for place, others in left.items() if place not in ended}
+    way = sorted(left)[:1]
+    while way and len({*way}) == len(way):
+        way.append(min(left[way[-1]] & {*left}))
+    return way[way.index(way[-1]) + 1 :] if way else []
+
+
+def test_no_rooms_import_each_other():
+    """Directly or by way of others. The front door, which opens rooms when they are asked for, is left out."""
+    graph: dict[str, set[str]] = {}
+    for path in {*PACKAGE.rglob("*.py")} - {PACKAGE / "__init__.py"}:
+        graph.setdefault(place_of(path), set()).update(neighbours(path))
+    assert ring(graph) == []
+
+
+def test_rooms_that_import_each_other_by_way_of_others_are_found():
+    graph = {"laws": {"doubt", "fit"}, "doubt": {"search"}, "search": {"laws"}, "fit": set(), "page": {"laws"}}
+    assert sorted(ring(graph)) == ["doubt", "laws", "search"]
+    assert ring({**graph, "search": {"fit"}}) == []
+
+
 def test_plugins_know_the_contracts_and_nothing_above():
     allowed = {"arrays", "contracts", "free_forms", "parameters", "signals", "kernels"}
     folder = Path(__import__("hysteresis_plugins").__file__).parent

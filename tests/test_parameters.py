@@ -33,6 +33,14 @@ def test_every_fault_of_a_box_is_told():
     assert len(Parameter("a", 0.0, 1.0, scaling="log", positive=True).faults()) == 1
 
 
+def test_bounds_that_reach_down_to_0_are_linear_unless_a_scaling_is_asked_for():
+    decades = Parameter("a", 1.0, 10.0, scaling="log")
+    assert decades.bounded(0.5, 2.0) == Parameter("a", 0.5, 2.0, scaling="log")
+    assert decades.bounded(0.0, 2.0) == Parameter("a", 0.0, 2.0)
+    assert decades.bounded(-1.0, 2.0, "log").faults()
+    assert Parameter("a", 1.0, 10.0).bounded(0.5, 2.0, "log").scaling == "log"
+
+
 def test_a_value_that_makes_no_sense_is_refused():
     width = Parameter("b", 1.0, 2.0, positive=True)
     assert "above 0" in width.refuses(0.0)

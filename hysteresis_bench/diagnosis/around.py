@@ -9,7 +9,7 @@ from functools import cached_property
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.density import in_its_place
-from hysteresis_bench.diagnosis.doubt.doubt import Doubt, answered, doubt
+from hysteresis_bench.diagnosis.doubt.doubt import answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families.finding import forms_of
@@ -166,7 +166,7 @@ def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()
     blameless = left.noise and not forms_of(stages.adopted) and found.thin.excitations.varied
     witnesses = [] if blameless or not laws else of_few_parameters(registry.names("models"))
     doubted = doubt(found, question, laws, witnesses)
-    if doubted != Doubt():
+    if doubted.raised:
         known, found = found, answered(found, doubted, question.options)
         if found.best.names > known.best.names:
             # with more around it the law may do as well as another one did: that is asked again

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -46,6 +47,11 @@ class DiagnosisOptions:
     laws: Sequence[str] = ()
     on_step: OnStep = field(default=quiet, compare=False, repr=False)
     kept: Kept | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def processes(self) -> int:
+        """That work side by side."""
+        return self.jobs or min(4, os.cpu_count() or 1)
 
 
 @dataclass(frozen=True)

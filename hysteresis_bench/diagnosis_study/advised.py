@@ -11,7 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import DrivenRig
 from hysteresis_bench.data.units import converted, same_unit
-from hysteresis_bench.diagnosis.experiments.settled import Measured, ties_after
+from hysteresis_bench.diagnosis.experiments.settled import Measured, Tied
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.preparation import with_held_out
 from hysteresis_bench.diagnosis_study.study_file import no_drive
@@ -130,3 +130,20 @@ def _oddities(dataset: Dataset, drive: Record, record: Record) -> Iterator[str]:
 def _in(values: Array, unit: str, wanted: str) -> Array:
     """Values in another unit; without a unit they are taken to be in it. Raises ValueError where none converts."""
     return values if "1" in (unit, wanted) or same_unit(unit, wanted) else converted(values, unit, wanted)
+
+
+def ties_after(before: Diagnosis, after: Diagnosis) -> tuple[Tied, ...]:
+    """The ties of one diagnosis, and what became of them in another one with more records."""
+    return tuple(_ties(before, after))
+
+
+def _ties(before: Diagnosis, after: Diagnosis) -> Iterator[Tied]:
+    told = before.advice.probabilities if before.advice else {}
+    still = {frozenset((tie.effect, tie.rival)) for tie in after.ties}
+    for first in dict.fromkeys(tie.effect for tie in before.ties):
+        rivals = [tie.rival for tie in before.ties if tie.effect == first]
+        names = (first, *rivals)
+        made = first == before.ties[0].effect and {*rivals} <= {*told}
+        claimed = [name for name in names if name in after.effects]
+        left = tuple((one, *(other for other in names if frozenset((one, other)) in still)) for one in claimed)
+        yield Tied(names, min(told[rival] for rival in rivals) if made else None, left)

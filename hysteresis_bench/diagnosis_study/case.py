@@ -11,12 +11,12 @@ import numpy as np
 from hysteresis_bench import registry
 from hysteresis_bench.contracts import DrivenRig, Rig
 from hysteresis_bench.diagnosis.diagnose import diagnose
-from hysteresis_bench.diagnosis.experiments.settled import Tied, ties_after
+from hysteresis_bench.diagnosis.experiments.settled import Tied
 from hysteresis_bench.diagnosis.families.finding import forms_of
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.certainty import Certainty
-from hysteresis_bench.diagnosis_study.advised import Bench, measured, nothing_to_measure
+from hysteresis_bench.diagnosis_study.advised import Bench, measured, nothing_to_measure, ties_after
 from hysteresis_bench.diagnosis_study.study_file import BenchSpec, DiagnosisStudy
 from hysteresis_bench.signals import Dataset
 from hysteresis_bench.study.problems import measure

@@ -99,7 +99,7 @@ def boxed(boxes: Sequence[Parameter], spec: ProblemSpec) -> tuple[tuple[Paramete
     parameters = []
     for parameter in boxes:
         lower, upper = spec.bounds.get(parameter.name, (parameter.lower, parameter.upper))
-        parameters.append(parameter.within(lower, upper, spec.scaling))
+        parameters.append(parameter.bounded(lower, upper, spec.scaling))
         faults += parameters[-1].faults()
     return tuple(parameters), faults
 

@@ -12,7 +12,7 @@ import pandas as pd
 
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.objective import Trace
-from hysteresis_bench.study.afterwards.closing_files import Closing, read_closing
+from hysteresis_bench.study.kept_files.closing_files import Closing, read_closing
 from hysteresis_bench.study.kept_files.courses import COURSES, read_courses
 from hysteresis_bench.study.kept_files.json_forms import check_provenance
 from hysteresis_bench.study.kept_files.reader import Reader

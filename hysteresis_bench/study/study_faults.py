@@ -228,7 +228,7 @@ def _bound_faults(spec: dict[str, Any]) -> list[str]:
     for name, pair in table(spec, "bounds").items():
         numbers = isinstance(pair, list) and len(pair) == 2 and all(isinstance(x, (int, float)) for x in pair)
         if name in parameters and numbers:
-            scaling = spec.get("scaling") or parameters[name].scaling
-            if scaling in ("linear", "log"):
-                found += [f"bounds {fault}" for fault in parameters[name].within(pair[0], pair[1], scaling).faults()]
+            scaling = spec.get("scaling") or None
+            if scaling in (None, "linear", "log"):
+                found += [f"bounds {fault}" for fault in parameters[name].bounded(pair[0], pair[1], scaling).faults()]
     return found

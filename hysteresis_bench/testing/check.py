@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from hysteresis_bench import registry
 from hysteresis_bench.progress import OnStep, Step, quiet
 from hysteresis_bench.study.execution.pool import Pool, Work, at_once
-from hysteresis_bench.testing.contracts.contract import Broken, promises
+from hysteresis_bench.testing.contract import Broken, promises
 from hysteresis_bench.testing.contracts.effects import EffectContract
 from hysteresis_bench.testing.contracts.limit import Overrun, within
 from hysteresis_bench.testing.contracts.models import ModelContract

@@ -15,7 +15,7 @@ from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import BudgetSpent, Objective, Problem, Trace
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
-from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contract import expect
 from hysteresis_bench.testing.examples import Waves, lock
 
 TRUTH = np.array([0.31, 0.72, 0.55, 0.13, 0.88])

@@ -6,7 +6,7 @@ import keyword
 from collections.abc import Sequence
 
 from hysteresis_bench.parameters import Parameter
-from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contract import expect
 from hysteresis_bench.testing.examples import QUANTITIES
 
 MARGIN = 0.01

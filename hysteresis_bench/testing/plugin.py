@@ -12,7 +12,7 @@ import numpy as np
 
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.testing.contracts.contract import Contract, expect
+from hysteresis_bench.testing.contract import Contract, expect
 from hysteresis_bench.testing.process import undisturbed
 
 

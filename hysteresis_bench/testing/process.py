@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contract import expect
 
 
 @contextmanager

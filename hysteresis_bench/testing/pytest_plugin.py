@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from hysteresis_bench.testing.contracts.contract import Contract
+from hysteresis_bench.testing.contract import Contract
 
 
 def pytest_generate_tests(metafunc: Any) -> None:

@@ -11,7 +11,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record
-from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contract import expect
 
 MANY_CORNERS = 512
 """Of a box with more corners, so many are drawn."""

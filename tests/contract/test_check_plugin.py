@@ -12,7 +12,7 @@ from numba.core.event import trigger_event
 from hysteresis_bench import registry
 from hysteresis_bench.cli import main
 from hysteresis_bench.testing.check import BROKEN, CONTRACTS, KEPT, Question, answer, check
-from hysteresis_bench.testing.contracts.contract import promises
+from hysteresis_bench.testing.contract import promises
 from hysteresis_bench.testing.contracts.limit import Overrun, within
 from tests.conftest import forget_plugins
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import measure
-from hysteresis_bench.diagnosis.experiments.settled import Measured, Tied, ties_after
+from hysteresis_bench.diagnosis.experiments.settled import Measured, Tied
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis_study.advised import Bench, driven_rig, measured, nothing_to_measure
+from hysteresis_bench.diagnosis_study.advised import Bench, driven_rig, measured, nothing_to_measure, ties_after
 from hysteresis_bench.diagnosis_study.case import outcome
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset, Record

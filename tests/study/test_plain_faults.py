@@ -2,6 +2,7 @@
 
 import pytest
 
+from hysteresis_bench.study.problems import boxed, build_system
 from tests.study.test_study_file import GOOD, read, told
 
 BOUC_WEN = GOOD.replace("polynomial", "bouc-wen")
@@ -31,6 +32,16 @@ def test_the_wrong_brackets(tmp_path):
 def test_bounds_are_two_numbers(tmp_path, bounds):
     faults = told(tmp_path, with_line(f"bounds = {{ alpha = {bounds} }}"))
     assert faults == ["[[problem]] 1 bounds alpha: should be two numbers, lower and upper, such as [0, 1]."]
+
+
+def test_bounds_that_reach_down_to_0_are_linear_as_in_a_fit_but_no_logarithm(tmp_path):
+    down_to_0 = GOOD.replace("data =", "bounds = { b = [0, 5] }\ndata =")
+    spec = read(tmp_path, down_to_0).problem[0]
+    parameters, faults = boxed(build_system("polynomial").parameters, spec)
+    assert not faults
+    assert (parameters[1].lower, parameters[1].scaling) == (0.0, "linear")
+    (fault,) = told(tmp_path, down_to_0.replace("data =", 'scaling = "log"\ndata ='))
+    assert "b: log scaling needs a low bound above 0" in fault
 
 
 @pytest.mark.parametrize(

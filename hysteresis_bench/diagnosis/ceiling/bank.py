@@ -45,7 +45,7 @@ class Family:
 
 @dataclass(frozen=True, eq=False)
 class Bank:
-    """The columns of every so manieth scored sample of these records."""
+    """The columns of every n-th scored sample of these records;  stride : n"""
 
     records: tuple[Record, ...]
     stride: int = 1

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 
 from hysteresis_bench import registry
-from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.ceiling.bank import Bank
 from hysteresis_bench.diagnosis.ceiling.folds import folds_of
@@ -23,6 +22,7 @@ from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
+from hysteresis_bench.kernels.root_mean_square import rms
 
 REMAINS = 1.1
 """Times the floor up to which the named model comes down to the noise. On 83 made cases, 72 of which lacked a law or
@@ -138,9 +138,9 @@ def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ce
         own[fold.judged], alone[fold.judged] = bare.errors, free.errors
         black_box[fold.judged] = best.errors
     return Ceiling(
-        named=_rms(own),
-        black_box=_rms(black_box),
-        alone=_rms(alone),
+        named=rms(own),
+        black_box=rms(black_box),
+        alone=rms(alone),
         advantage=float(advantage(black_box, own, folds.blocks)),
         columns=max(sorted({*found}), key=found.count),
         left_out=folds.how,
@@ -150,7 +150,3 @@ def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ce
         noise=noise.floor,
         repeats=noise.repeat_rms if noise.coloured else None,
     )
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(values**2)))

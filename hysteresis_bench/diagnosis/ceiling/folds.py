@@ -54,7 +54,7 @@ class Folds:
         return [Fold(outer.without | fold.without, fold.judged, fold.place) for fold in others]
 
     def every(self, stride: int) -> Folds:
-        """Of every so manieth sample."""
+        """Of every n-th sample;  stride : n"""
         block, fold = self.blocks.block[::stride], self.blocks.fold[::stride]
         return replace(self, blocks=Blocks(block, fold, self.blocks.folds), part=self.part[::stride])
 

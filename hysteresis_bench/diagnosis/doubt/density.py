@@ -4,7 +4,7 @@ Effects are not sought around a density: among its many parameters most would be
 Those that were found around a law of few parameters, or were tied with what was found, are asked for again around it.
 It stands in that law's place where the law predicts records left out worse than the noise allows, and the density with
 the effects does clearly better (`cause.clearly_better`) and is expected to on what is asked too, where its parameters
-weigh unless that is like what was left out (`laws.choice.weighed`).
+weigh unless that is like what was left out (`expected_error`).
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from hysteresis_bench.diagnosis.doubt.cause import clearly_better
 from hysteresis_bench.diagnosis.doubt.doubt import in_question
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.hypotheses.expected_error import weighed
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import SmoothFitter
-from hysteresis_bench.diagnosis.laws.choice import weighed
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.search import Found, search

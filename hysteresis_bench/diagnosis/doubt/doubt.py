@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -42,6 +41,16 @@ class Doubt:
     free: tuple[str, ...] = ()
 
     @property
+    def raised(self) -> bool:
+        """Is there any?"""
+        return self.of_the_law or bool(self.carrying) or bool(self.free)
+
+    @property
+    def of_the_law(self) -> bool:
+        """Is the law itself in question: does another one do better, were laws asked, or is there too little to ask?"""
+        return self.cause is not None or self.agreement is not None or self.untested
+
+    @property
     def undecided(self) -> bool:
         """May what was adopted be a part of the right law, though no other law does better for certain?"""
         cause = self.cause
@@ -57,7 +66,7 @@ class Doubt:
         taken in its place around other laws."""
         others = {*self.carrying, *self.free, *(filter(is_shape, adopted) if self.carrying else ())}
         adopted = [name for name in adopted if name not in others]
-        if self == Doubt(carrying=self.carrying, free=self.free):
+        if not self.of_the_law:
             return {name: () for name in adopted}
         likes = self.agreement.effects if self.agreement else {}
         groups = {name: (needed, *likes.get(needed, ())) for name, needed in self._matched(adopted).items()}
@@ -96,7 +105,6 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     # together with a law, what has no dynamics may make another law: does one follow without?
     effects = tuple(name for name in in_question(found) if not (imitated and is_shape(name)))
     around = OtherLaws(asked, stack, few, effects, floor, options.seed, _values(found))
-    jobs = options.jobs or min(4, os.cpu_count() or 1)
     level = _level(found)
     own = final if level is found else replace(final, errors=found.thin.unseen(level.final))
     untested = bool(final.effects) and found.final.rmse > WRONG * floor and not found.thin.excitations.varied
@@ -105,7 +113,7 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     most = most_parameters(level, own)
     if not wrong and own.rmse <= REACHED * floor:  # at the noise none does clearly better
         others = [name for name in others if len(registry.build("models", name, {}).parameters) <= most]
-    with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
+    with Workers[Contender](around, options.processes, options.on_step, options.kept) as workers:
         screened = workers.map([("screened", name) for name in others])
         cause = law_as_cause(level, own, [one for one in screened if one.model in laws], most, few, workers)
         if not wrong or not witnesses or (cause and cause.unseen <= REACHED * floor):

@@ -7,14 +7,13 @@ Where two effects act, a wrong law may come before the right one, which lacks bo
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 
 from hysteresis_bench.diagnosis.doubt.doubt import SCREENED
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.hypotheses.expected_error import TIED, weighed
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
-from hysteresis_bench.diagnosis.laws.choice import TIED, weighed
 from hysteresis_bench.diagnosis.preparation import thinned
 from hysteresis_bench.diagnosis.question import DiagnosisOptions
 from hysteresis_bench.diagnosis.search.search import Found
@@ -32,15 +31,14 @@ def simpler_law(asked: str, found: Found, laws: Sequence[str], seed: int) -> str
 
 def better_law(asked: str, found: Found, parameters: Mapping[str, int], options: DiagnosisOptions) -> str:
     """Of the laws that leave less of `SCREENED` samples than `asked` with all that was found, the one of which least is
-    expected (times 1 + parameters / blocks, as of `laws.choice`); "" where none does, or nothing was found.
+    expected (times 1 + parameters / blocks, as of `expected_error`); "" where none does, or nothing was found.
 
     found : around the law `asked`;  parameters : how many the others have
     """
     around, blocks = _around(asked, found, options.seed), int(found.thin.blocks.block.max()) + 1
     if not (around.effects and parameters):
         return ""
-    jobs = options.jobs or min(4, os.cpu_count() or 1)
-    with Workers[Contender](around, jobs, options.on_step, options.kept) as workers:
+    with Workers[Contender](around, options.processes, options.on_step, options.kept) as workers:
         own, *others = workers.map([("screened", law) for law in (asked, *parameters)])
     better = [one for one in others if one.rmse < own.rmse]
     expected = {one.model: weighed(one.rmse, parameters[one.model], blocks) for one in better}

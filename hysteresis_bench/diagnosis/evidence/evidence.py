@@ -36,6 +36,6 @@ class Evidence:
 
 
 def gather(views: tuple[View, ...]) -> Evidence:
-    """Of the fitted records."""
+    """What the fitted records say before any model: noise, floor, memory."""
     loud = pooled_noise([view.noise for view in views])
     return Evidence(views, loud, floor_of(views, loud), memory(views))

@@ -18,11 +18,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import comb, erf, exp, pi, sqrt
-from statistics import NormalDist
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Record
 
 ORDERS = (2, 3, 4, 5, 6, 8, 10, 12)
@@ -33,8 +33,6 @@ CLIP = 3.0
 """Differences beyond so many times the noise are no noise but a kink."""
 SHRINK = sqrt(1.0 - 2.0 * CLIP * exp(-0.5 * CLIP**2) / sqrt(2.0 * pi) / erf(CLIP / sqrt(2.0)))
 """RMS of a standard normal variable that is clipped there."""
-MEDIAN = NormalDist().inv_cdf(0.75)
-"""Of the absolute value of a standard normal variable."""
 
 MISSED = 0.25
 """Of the arc between two samples, what a model of the samples gets wrong: it sees no reversal at its very peak."""

@@ -1,6 +1,6 @@
 """What is left in a residual: tests per record and overall, each with its p-value in plain words.
 
-Dependence is tested by regression with autocorrelated errors (`coloured`), so that n samples are not taken
+Dependence is tested by regression with autocorrelated errors (`autocorrelated`), so that n samples are not taken
 for n independent ones. The spectrum is tested against its own smooth background, coherence between segments.
 Where the input may answer to the output, what is found must be in the input's past as well: noise that a controller
 feeds back is in its future. p-values are corrected by Holm for all tests made. A test that cannot be made (no time

@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.signals import Record
-
-if TYPE_CHECKING:
-    from hysteresis_bench.diagnosis.findings.result import Diagnosis
 
 
 @dataclass(frozen=True)
@@ -88,23 +84,6 @@ class Measured:
             "words": self.words,
             "notes": list(self.notes),
         }
-
-
-def ties_after(before: Diagnosis, after: Diagnosis) -> tuple[Tied, ...]:
-    """The ties of one diagnosis, and what became of them in another one with more records."""
-    return tuple(_ties(before, after))
-
-
-def _ties(before: Diagnosis, after: Diagnosis) -> Iterator[Tied]:
-    told = before.advice.probabilities if before.advice else {}
-    still = {frozenset((tie.effect, tie.rival)) for tie in after.ties}
-    for first in dict.fromkeys(tie.effect for tie in before.ties):
-        rivals = [tie.rival for tie in before.ties if tie.effect == first]
-        names = (first, *rivals)
-        made = first == before.ties[0].effect and {*rivals} <= {*told}
-        claimed = [name for name in names if name in after.effects]
-        left = tuple((one, *(other for other in names if frozenset((one, other)) in still)) for one in claimed)
-        yield Tied(names, min(told[rival] for rival in rivals) if made else None, left)
 
 
 def _either(names: tuple[str, ...]) -> str:

@@ -95,8 +95,8 @@ class Outcome:
     @property
     def doubted(self) -> bool:
         """Is so much left that the names may stand in for what is wrong with the law?"""
-        free = self.doubt.free
-        return (self.leaves_much or bool(free)) and self.doubt == Doubt(free=free)
+        raised = self.doubt.of_the_law or bool(self.doubt.carrying)
+        return (self.leaves_much or bool(self.doubt.free)) and not raised
 
     @property
     def doubtful(self) -> bool:
@@ -148,7 +148,7 @@ def headline(outcome: Outcome) -> str:
     said += other_zero(after, outcome.evidence.floor, unit)
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
-    if doubt != Doubt():
+    if doubt.raised:
         said += f" {' '.join(_of_the_law(outcome, unit))}"
     elif outcome.left.louder and outcome.leaves[0] <= WRONG:
         said += f" What was held out is missed by {rounded(outcome.leaves[1])} times the noise: something is lacking."

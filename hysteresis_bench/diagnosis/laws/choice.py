@@ -37,13 +37,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from hysteresis_bench.diagnosis.hypotheses.expected_error import TIED as TIED
+from hysteresis_bench.diagnosis.hypotheses.expected_error import weighed
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.unseen.blocks import Blocks
 
 SLACK = 0.1
 """Share of the range of the fitted outputs."""
-TIED = 1.02
-"""Ratio of two errors at the noise up to which they are equal."""
 OPEN = 0.02
 """Share of its range by which a loop that had settled may still move in a law's last pass. On measured films a law that
 wears with every pass moved by 0.03 to 0.13 after eight, one other by 0.0198, the rest by less than 0.01."""
@@ -114,8 +114,3 @@ def ranking(laws: Sequence[Law], noise: float, blocks: Blocks, *, like: bool = F
 def expected(law: Law, blocks: int) -> float:
     """RMSE to expect on other excitations, unit of the output; blocks : how many were left out."""
     return weighed(law.rmse, law.parameters, blocks)
-
-
-def weighed(rmse: float, parameters: int, blocks: int) -> float:
-    """As of Akaike: RMSE to expect on other excitations of so many parameters, judged by so many blocks."""
-    return rmse * (1.0 + parameters / blocks)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -36,6 +35,7 @@ from hysteresis_bench.fit.settling import FIRST_REPEATS, open_loops
 from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, open_way
 from hysteresis_bench.kernels.resources import economical
+from hysteresis_bench.kernels.root_mean_square import rms
 from hysteresis_bench.signals import Dataset
 
 BASELINE = "cubic polynomial"
@@ -104,8 +104,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
         reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else REACHABLE)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))
     reasons |= unlike_in_unit(names, thin.records)
-    jobs = options.jobs or min(4, os.cpu_count() or 1)
-    with Workers[Law](passing, jobs, options.on_step, options.kept) as workers:
+    with Workers[Law](passing, options.processes, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
         wanting = _wanting(fitted, floor) if effects_follow else []
         moved = workers.map([("with_dynamics", law) for law in wanting])
@@ -195,7 +194,8 @@ def _notes(seen: Dataset, options: DiagnosisOptions) -> tuple[str, ...]:
     return (
         *seen.notes,
         f"Fitted: {', '.join(fitted)}." + (f" Held out: {', '.join(held_out)}." if held_out else ""),
-        f"Two searches by {registry.SEARCH} a law, seed {options.seed}, and an offset a record.",
+        f"Every law is fitted by two searches of {registry.SEARCH} (seed {options.seed}), with an offset for each "
+        "record.",
     )
 
 
@@ -218,14 +218,10 @@ def _baseline_row(unseen: float, seen: Dataset) -> dict[str, object]:
     return {
         "law": BASELINE,
         "parameters": plain.coefficients.size,
-        "fitted": _rms(fitted),
+        "fitted": rms(np.concatenate(fitted)),
         "unseen": unseen,
-        "held_out": _rms(held) if held else np.nan,
+        "held_out": rms(np.concatenate(held)) if held else np.nan,
         "around": np.nan,
         "seconds": 0.0,
         "reason": "",
     }
-
-
-def _rms(parts: Sequence[np.ndarray]) -> float:
-    return float(np.sqrt(np.mean(np.concatenate(parts) ** 2)))

@@ -178,7 +178,17 @@ class Laws:
         )
         away = outside(simulated(system, self.dataset.held_out, values), self.dataset)
         gap = gap_after(system, self.loops, values, repeats=self.passes) if self.passes else 0.0
-        return Law(name, "", fitted, held_out, unseen, parameters, time.process_time() - begun, ahead, away, gap)
+        return Law(
+            name,
+            fitted=fitted,
+            held_out=held_out,
+            unseen=unseen,
+            parameters=parameters,
+            seconds=time.process_time() - begun,
+            ahead=ahead,
+            outside=away,
+            gap=gap,
+        )
 
     def _reasons(self, fitter: Fitter) -> list[str]:
         system = fitter.stack.system(())

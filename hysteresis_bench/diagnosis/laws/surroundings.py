@@ -14,7 +14,7 @@ from hysteresis_bench.free_forms import FreeForm
 
 SIDES = ("dynamics before the law", "dynamics after the law")
 SHAPES = ("curve of the input", "curve of the output", "curve beside the law", "damping beside the law", "law")
-"""Families."""
+"""Families of free forms that are put around a law: its linear dynamics on either side, and what bends it."""
 
 
 def drifts(stack: Stack) -> list[str]:

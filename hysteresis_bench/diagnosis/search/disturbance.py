@@ -11,7 +11,7 @@ from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.signals import Record
 
 DISTURBANCES = ("added disturbance", "cyclic error")
-"""Families."""
+"""Families of effects whose ripple may be heard as noise."""
 
 
 def undisturbed(fitter: Fitter, hypothesis: Hypothesis) -> tuple[Record, ...]:

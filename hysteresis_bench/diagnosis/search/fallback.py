@@ -17,11 +17,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
+from hysteresis_bench.kernels.root_mean_square import rms
 
 WORSE = 1.06
 """Times the error without an effect, or the noise, from which it makes a prediction worse: where a system no longer
@@ -97,7 +97,7 @@ def misleading(
         theirs = fitter.unseen(smaller)
         for k in inner:
             own = number == k
-            more, less = _rms(ours[own]), _rms(theirs[own])
+            more, less = rms(ours[own]), rms(theirs[own])
             if more > WORSE * max(less, floor) and advantage(theirs[own], ours[own], blocks.of(own)) > CLEAR:
                 found.append((more / less, name, records[k].name))
     if not found:
@@ -109,7 +109,7 @@ def misleading(
 
 def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
     """RMSE over all fitted records, each predicted by a fit to the others; of a lone record, over its blocks."""
-    return _rms(fitter.unseen(hypothesis))
+    return rms(fitter.unseen(hypothesis))
 
 
 def predicts_better(fitter: Fitter, one: Hypothesis, other: Hypothesis, floor: float) -> bool:
@@ -129,9 +129,5 @@ def _predicted(fitter: Fitter, hypothesis: Hypothesis, floor: float) -> float:
     """Of what can be left out, whole records or parts of a lone one: geometric mean of the RMSE of each, of which none
     counts as less than the floor."""
     left, excitations = fitter.apart(hypothesis), fitter.excitations
-    each = [max(_rms(left[excitations.number == k]), floor) for k in excitations.apart]
+    each = [max(rms(left[excitations.number == k]), floor) for k in excitations.apart]
     return float(np.exp(np.mean(np.log(each))))
-
-
-def _rms(errors: Array) -> float:
-    return float(np.sqrt(np.mean(errors**2)))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
@@ -10,7 +9,6 @@ from functools import cached_property, reduce
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.ceiling.ceiling import Ceiling, ceiling
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
-from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import fitter_of
@@ -21,6 +19,7 @@ from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.search.disturbance import undisturbed
 from hysteresis_bench.diagnosis.search.fallback import Fallback, fall_back, misleading, unseen_rmse
 from hysteresis_bench.diagnosis.search.follows import follows
+from hysteresis_bench.diagnosis.search.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.search.offset import with_simplest_offset
 from hysteresis_bench.diagnosis.search.round import Round
 from hysteresis_bench.diagnosis.search.selection import Selection
@@ -81,8 +80,8 @@ def search(prepared: Prepared, evidence: Evidence, question: Question) -> Found:
     possible, impossible = thin.stack.candidates()
     if question.among is not None:
         possible = tuple(name for name in possible if name in question.among)
-    jobs, on_step = options.jobs or min(4, os.cpu_count() or 1), options.on_step
-    with Workers[Hypothesis](thin, jobs, on_step, options.kept) as workers:
+    on_step = options.on_step
+    with Workers[Hypothesis](thin, options.processes, on_step, options.kept) as workers:
         (base,) = workers.map([("bare", frozenset({registry.RECORD_OFFSET}))])
         evidence = _beside(evidence, full, base)
         selection = Selection(thin, workers, evidence.floor, possible)

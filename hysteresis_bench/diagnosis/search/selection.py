@@ -58,6 +58,7 @@ BETTER = 0.999
 """Ratio of the RMSE from which another fit of the same system is a better one."""
 
 MOST = 5
+"""Effects that are adopted at most; to exchange and drop them twice as many steps are taken at most."""
 
 
 @dataclass(eq=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 import pandas as pd
@@ -14,9 +14,6 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.csv_files import read_table, write_table
 from hysteresis_bench.diagnosis.structure.cells import Unlike, columns
 from hysteresis_bench.diagnosis.structure.course import Course
-
-if TYPE_CHECKING:
-    from hysteresis_bench.diagnosis.structure.finding import Finding
 
 FILE = "structure.csv"
 MOST = 8
@@ -36,6 +33,16 @@ class Curve:
     y: Array
     apart: Array = field(default_factory=lambda: np.empty(0))
     name: str = ""
+
+
+class Pictured(Protocol):
+    """What has curves that show it, as a structure test's finding has."""
+
+    @property
+    def name(self) -> str: ...
+
+    @property
+    def curves(self) -> tuple[Curve, ...]: ...
 
 
 def compared(course: Course, found: Unlike) -> tuple[Curve, ...]:
@@ -65,7 +72,7 @@ def measured(x: Array, y: Array) -> Curve:
     return Curve(x[every], y[every])
 
 
-def write_curves(folder: Path, findings: Sequence[Finding]) -> None:
+def write_curves(folder: Path, findings: Sequence[Pictured]) -> None:
     """Write structure.csv, a row a point: test, curve, x, y, apart."""
     tables = [
         pd.DataFrame(

@@ -10,8 +10,8 @@ from hysteresis_bench.errors import UserError
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.report.trials.compared import Compared
 from hysteresis_bench.report.trials.summary import summarise
-from hysteresis_bench.study.afterwards.closing_files import CLOSING
 from hysteresis_bench.study.afterwards.once_more import responses_once_more
+from hysteresis_bench.study.kept_files.closing_files import CLOSING
 from hysteresis_bench.study.results import REPORT, RESPONSES, SUMMARY, TRIALS, read_results
 from hysteresis_bench.study.store import FILE
 

@@ -20,7 +20,7 @@ from hysteresis_bench.report.diagnosis.page import FILE, description, in_short
 from hysteresis_bench.report.shared.blocks import Block, Bullets, Figures, Paragraph
 from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import listed, sentence
-from hysteresis_bench.study.afterwards.closing_files import CLOSING, Closing
+from hysteresis_bench.study.kept_files.closing_files import CLOSING, Closing
 from hysteresis_bench.study.results import Results
 from hysteresis_bench.study.study_file import ClosingSpec
 

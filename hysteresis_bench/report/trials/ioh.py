@@ -19,7 +19,7 @@ from hysteresis_bench.study.kept_files.trial_rows import KEY
 from hysteresis_bench.study.results import Results
 
 VERSION = "0.3.18"
-"""Of the format."""
+"""Of IOHprofiler's format, which the files are written in."""
 COLUMNS = ("evaluations", "raw_y")
 
 

@@ -16,11 +16,10 @@ from hysteresis_bench.fit.objective import Trace
 from hysteresis_bench.study.afterwards.recovery import recovery
 from hysteresis_bench.study.origin import Trial
 from hysteresis_bench.study.problems import Built
-from hysteresis_bench.study.results import FINISHED
+from hysteresis_bench.study.results import FINISHED, RESPONSE_COLUMNS
 from hysteresis_bench.study.study_file import Study
 
 PROFILE_POINTS = 13
-RESPONSE_COLUMNS = ("problem", "optimizer", "record", "role", "time", "input", "output", "simulated")
 DRIVE = "voltage"
 """A column of records in which the input is measured, too: what the drive was told."""
 

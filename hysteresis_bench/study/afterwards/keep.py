@@ -7,7 +7,7 @@ from collections.abc import Collection
 from pathlib import Path
 
 from hysteresis_bench.errors import UserError
-from hysteresis_bench.study.afterwards.closing_files import CLOSING
+from hysteresis_bench.study.kept_files.closing_files import CLOSING
 from hysteresis_bench.study.kept_files.courses import COURSES, write_courses
 from hysteresis_bench.study.results import (
     IDENTIFIABILITY,

@@ -22,7 +22,7 @@ from hysteresis_bench.study.store import Outcome
 from hysteresis_bench.study.study_file import Study
 
 DIGITS = 7
-"""Of the responses."""
+"""Significant ones with which the responses are written."""
 
 
 def write_responses(

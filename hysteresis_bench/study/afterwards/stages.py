@@ -19,11 +19,11 @@ from hysteresis_bench.fit.accuracy import accuracy, response_table, simulated
 from hysteresis_bench.fit.model_file import Estimate, FittedModel
 from hysteresis_bench.parameters import Space
 from hysteresis_bench.signals import Record
-from hysteresis_bench.study.afterwards.best_fits import RESPONSE_COLUMNS, best_of
+from hysteresis_bench.study.afterwards.best_fits import best_of
 from hysteresis_bench.study.afterwards.linear_section import fitted
 from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.problems import Built, build_problem, build_system
-from hysteresis_bench.study.results import FINISHED
+from hysteresis_bench.study.results import FINISHED, RESPONSE_COLUMNS
 from hysteresis_bench.study.study_file import StageSpec, Study
 
 COLUMNS = ("stage", "optimizer", "way", "quantity", "name", "controller", "value", "standard_error", "unit", "fault")

@@ -13,9 +13,10 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.contracts import Effect, Model
 from hysteresis_bench.signals import INDEX, Record
-from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contract import expect
+from hysteresis_bench.testing.contracts.hiding import changes
+from hysteresis_bench.testing.contracts.units import factor
 from hysteresis_bench.testing.examples import QUANTITIES, Cubic, locked, measured
-from hysteresis_bench.testing.hiding import changes
 from hysteresis_bench.testing.parameters import expect_described, expect_sound
 from hysteresis_bench.testing.plugin import PluginContract, shipped
 from hysteresis_bench.testing.swarms import (
@@ -26,7 +27,6 @@ from hysteresis_bench.testing.swarms import (
     expect_strangers,
     expect_untouched,
 )
-from hysteresis_bench.testing.units import factor
 
 SLOPE, BEND = 1.3, 0.4
 """Of the cubic that effects are put around."""

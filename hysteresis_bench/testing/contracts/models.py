@@ -13,7 +13,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
 from hysteresis_bench.inspection.memory import Plays
 from hysteresis_bench.signals import INDEX, Record, Signal
-from hysteresis_bench.testing.contracts.contract import expect
+from hysteresis_bench.testing.contract import expect
 from hysteresis_bench.testing.contracts.properties import ALIKE, missed, turned
 from hysteresis_bench.testing.examples import locked, measured
 from hysteresis_bench.testing.parameters import expect_described, expect_sound

@@ -10,7 +10,7 @@ import numpy as np
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import Model
 from hysteresis_bench.fit.objective import OutsideBox
-from hysteresis_bench.testing.contracts.contract import Broken, expect
+from hysteresis_bench.testing.contract import Broken, expect
 from hysteresis_bench.testing.examples import Breaks, Plateau, Waves
 from hysteresis_bench.testing.meter import Search, watch
 from hysteresis_bench.testing.plugin import PluginContract

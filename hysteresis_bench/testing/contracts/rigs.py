@@ -11,7 +11,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.contracts import DrivenRig, SteppedRig
 from hysteresis_bench.signals import Dataset, Record
-from hysteresis_bench.testing.contracts.contract import Broken, expect
+from hysteresis_bench.testing.contract import Broken, expect
 from hysteresis_bench.testing.plugin import PluginContract
 
 DRIVEN = 400

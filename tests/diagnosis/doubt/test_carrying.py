@@ -43,7 +43,10 @@ def test_a_dead_band_alone_is_no_law():
 def test_what_carries_the_loop_is_not_held():
     doubt = Doubt(carrying=("play-bank",))
     assert doubt.holding(("creep", "play-bank")) == {"creep": ()}
-    assert doubt != Doubt()
+    assert (doubt.raised, doubt.of_the_law) == (True, False)
+    untested = Doubt(untested=True)
+    assert (untested.raised, untested.of_the_law) == (True, True)
+    assert not Doubt().raised
 
 
 def test_beside_it_what_has_no_dynamics_may_be_the_shape_of_the_law():

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from hysteresis_bench.diagnosis.families.free_forms import _in_place_of_two
 from hysteresis_bench.diagnosis.hypotheses.nested_test import NestedTest
+from hysteresis_bench.diagnosis.search.free_forms import _in_place_of_two
 from tests.diagnosis.search.handmade import FLOOR, WAVE, fit, leaving, selection_of
 
 UNEVEN = WAVE * np.repeat(np.linspace(1.05, 0.95, 48), 10)

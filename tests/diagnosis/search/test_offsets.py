@@ -5,7 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.families import free_forms
+from hysteresis_bench.diagnosis.search import free_forms
 
 OFFSET = registry.RECORD_OFFSET
 

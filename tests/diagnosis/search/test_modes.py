@@ -6,10 +6,10 @@ from scipy.signal import bilinear, lfilter, lfilter_zi
 
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.signals import Record
 

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
+from hysteresis_bench.diagnosis.search.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.signals import joined

@@ -4,7 +4,7 @@ from types import SimpleNamespace
 
 import pytest
 
-from hysteresis_bench.diagnosis.families.free_forms import _joined
+from hysteresis_bench.diagnosis.search.free_forms import _joined
 from tests.diagnosis.search.handmade import FLOOR, fit, leaving, selection_of
 
 

@@ -10,13 +10,13 @@ from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.around import concluded, searched
 from hysteresis_bench.diagnosis.families.finding import course
-from hysteresis_bench.diagnosis.families.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis, write_diagnosis
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
+from hysteresis_bench.diagnosis.search.free_forms import with_free_forms
 from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.fit.model_file import read_model
