@@ -39,7 +39,7 @@ two strains neither end need be like the law's."""
 @dataclass(frozen=True)
 class Device:
     """units : of time (sample: only an index), input and output;  held_out : names of runs, the last third where empty
-    third : every third run is held out;  stride : every so manieth sample is kept
+    third : every third run is held out;  stride : every n-th sample is kept
     laws : that are compared, all where empty;  effects : that the source of the data says act
     perhaps : further ones that may act; they stay where what was left out is predicted better with them
     prepared : what the data's source asks for before a model sees them

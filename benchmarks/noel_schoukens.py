@@ -55,7 +55,7 @@ def main() -> None:
     begun = time.process_time()
     found = _fitted(record.take(slice(0, 4 * PERIOD)), spring)
     for name, estimate in found.model.parameters.items():
-        print(f"{name:10s} {estimate.value:.6g} ± {estimate.standard_error:.2g}")
+        print(f"{name:10s} {estimate.value:.6g} ± {estimate.standard_error or np.nan:.2g}")
     rng = np.random.default_rng(20160425)
     forces = {"multisine": multisine(rng), "sweep": sweep()}
     unseen = {name: replace(_answered(*force), units=record.units) for name, force in forces.items()}

@@ -24,5 +24,7 @@ if __name__ == "__main__":
     for tie in found.ties:
         print(f"these data cannot tell {tie.effect} from {tie.rival}")
     for name, estimate in found.model.parameters.items():
-        print(f"{name:28} {estimate.value:.4g} ± {estimate.standard_error:.2g} {estimate.unit}")
+        error = estimate.standard_error
+        spread = "" if error is None else f" ± {error:.2g}"  # None: the data cannot tell
+        print(f"{name:28} {estimate.value:.4g}{spread} {estimate.unit}")
     print(f"held out: {found.before.held_out.rmse:.3g} before, {found.after.held_out.rmse:.3g} after")

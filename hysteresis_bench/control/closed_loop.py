@@ -13,6 +13,7 @@ from hysteresis_bench.contracts import Plant
 from hysteresis_bench.control.compensation import Compensation, Forward, Series, along
 from hysteresis_bench.control.feed_forward import FeedForward
 from hysteresis_bench.control.references import Reference
+from hysteresis_bench.kernels.root_mean_square import rms
 
 
 class Target(NamedTuple):
@@ -65,8 +66,8 @@ class Run:
         time = self.reference.time[scored]
         return {
             "t_error": float(np.max(np.abs(self.error))),
-            "t_rmse": _rms(self.error),
-            "measured_rmse": _rms(seen),
+            "t_rmse": rms(self.error),
+            "measured_rmse": rms(seen),
             "total_variation": variation,
             "variation_per_second": variation / float(time[-1] - time[0]),
             "saturated_share": float(np.mean(self.cut)),
@@ -105,7 +106,3 @@ def track(
         memory = controller.applied(memory, sent.v, sent.cut)
         state = plant.step(state, sent.voltage)
     return Run(reference, displacement, measured, voltage, cut)
-
-
-def _rms(values: Array) -> float:
-    return float(np.sqrt(np.mean(np.square(values))))

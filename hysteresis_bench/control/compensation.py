@@ -72,10 +72,12 @@ class AlongReference:
 
     def apply(self, state: None, sample: int, v: float, limit: float) -> tuple[None, Applied]:
         slope, planned, u = self.slope, float(self.nominal[sample]), float(self.input[sample])
-        wanted = self.forward.voltage(u + (v - planned) / slope)
+        wanted = self.forward.preparation.measured_input(u + (v - planned) / slope)
         voltage = min(max(wanted, -limit), limit)
         cut = voltage != wanted
-        return None, Applied(voltage, planned + (self.forward.model_input(voltage) - u) * slope if cut else v, cut)
+        return None, Applied(
+            voltage, planned + (self.forward.preparation.seen_input(voltage) - u) * slope if cut else v, cut
+        )
 
 
 def along(forward: Forward, nominal: Array, time: Array) -> AlongReference:

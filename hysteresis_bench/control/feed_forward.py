@@ -81,27 +81,18 @@ class FeedForward:
         """Displacement at rest over v."""
         return self.linear.gain if self.linear else 1.0
 
-    def voltage(self, u: float) -> float:
-        """The actuator's input for the model's."""
-        return self.preparation.measured_input(u)
-
-    def model_input(self, voltage: float) -> float:
-        """The model's input for the actuator's."""
-        u = voltage - self.preparation.input_offset
-        return -u if self.preparation.flip else u
-
     def rest(self) -> Point:
         """Where the model is before anything happens: no input, no hysteresis."""
-        return Point(self.model_input(0.0), 0.0)
+        return Point(self.preparation.seen_input(0.0), 0.0)
 
     def limited(self, point: Point, v: float, limit: float) -> tuple[Point, float, bool]:
         """One sample: the next point towards v, the actuator's input, and whether the limit cut it."""
         reached = self.hysteresis.towards(point, v)
-        wanted = self.voltage(reached.u)
+        wanted = self.preparation.measured_input(reached.u)
         if abs(wanted) <= limit:
             return reached, wanted, False
         voltage = float(np.clip(wanted, -limit, limit))
-        return self.hysteresis.moved(point, self.model_input(voltage)), voltage, True
+        return self.hysteresis.moved(point, self.preparation.seen_input(voltage)), voltage, True
 
     def along(self, v: Array) -> tuple[Array, float]:
         """The model's input, (samples,), where its hysteresis makes v, and the slope of v over it at h = 0."""

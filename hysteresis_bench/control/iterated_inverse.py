@@ -72,10 +72,10 @@ class IteratedInverse:
         kept = (u, wanted - self._output(u))
         for _ in range(ITERATIONS):
             left = wanted - self._output(u)
-            cut = np.abs(self._measured(u)) >= limit
+            cut = np.abs(self.preparation.measured_input(u)) >= limit
             error = float(np.max(np.abs(left[~cut]), initial=0.0))
             if error <= EXACT * span:
-                return self._measured(u), cut
+                return self.preparation.measured_input(u), cut
             idle += 1
             if error < best or not np.isfinite(best):
                 best, kept, idle = error, (u, left), 0
@@ -84,36 +84,22 @@ class IteratedInverse:
                 u, left = kept
             u = self._limited(u + left / steepest, limit)
         if best <= CLOSE * span:
-            found = self._measured(kept[0])
+            found = self.preparation.measured_input(kept[0])
             return found, np.abs(found) >= limit
         raise ValueError(
             f"no input was found that makes the model follow the reference: {best / span:.2g} of its range is left. "
             "The law may saturate, or its output may fall where the input rises."
         )
 
-    def voltage(self, u: float) -> float:
-        """The actuator's input for the model's."""
-        return self.preparation.measured_input(u)
-
-    def model_input(self, voltage: float) -> float:
-        """The model's input for the actuator's."""
-        u = voltage - self.preparation.input_offset
-        return -u if self.preparation.flip else u
-
     def along(self, v: Array) -> tuple[Array, float]:
         """The model's input, (samples,), where the law makes v, and the mean slope of v over it."""
-        u = self.input_for(v)[0] - self.preparation.input_offset
-        u = -u if self.preparation.flip else u
+        u = self.preparation.seen_input(self.input_for(v)[0])
         return u, float(np.ptp(v)) / (float(np.ptp(u)) or 1.0)
 
     def _limited(self, u: Array, limit: float) -> Array:
         if np.isinf(limit):
             return u
-        seen = np.clip(self._measured(u), -limit, limit) - self.preparation.input_offset
-        return -seen if self.preparation.flip else seen
-
-    def _measured(self, u: Array) -> Array:
-        return (-u if self.preparation.flip else u) + self.preparation.input_offset
+        return self.preparation.seen_input(np.clip(self.preparation.measured_input(u), -limit, limit))
 
     def _output(self, u: Array, step: float = 1.0) -> Array:
         record = Record(step * np.arange(float(u.size)), u, None)

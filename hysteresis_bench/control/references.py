@@ -52,13 +52,22 @@ def static_reference(amplitude: float, rate: float) -> Reference:
     return Reference("sine-0.5-hz", time, amplitude * np.sin(np.pi * time), round(2.0 * rate))
 
 
+def faded_in(passed: Array) -> Array:
+    """What a signal is multiplied by while it fades in, without a jump in velocity or acceleration, (samples,).
+
+    passed : (samples,) share of the time it takes; beyond 1 it is all there
+    """
+    share = np.clip(passed, 0.0, 1.0)
+    smooth: Array = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
+    return smooth
+
+
 def published_references(amplitude: float, rate: float) -> tuple[Reference, ...]:
     """The six signals; amplitude in the output's unit, rate in samples a second."""
 
     def made(name: str, duration: float, shape: Callable[[Array], Array], fade_in: float = 0.0) -> Reference:
         time = np.arange(round((duration + fade_in) * rate)) / rate
-        share = np.clip(time / fade_in, 0.0, 1.0) if fade_in else np.ones(time.size)
-        smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)  # no jump in velocity or acceleration
+        smooth = faded_in(time / fade_in) if fade_in else np.ones(time.size)
         return Reference(name, time, amplitude * smooth * shape(time), round(fade_in * rate))
 
     def sine(frequency: float) -> Callable[[Array], Array]:

@@ -10,7 +10,7 @@ from hysteresis_bench.diagnosis.around import Around, Standing, concluded, of_fe
 from hysteresis_bench.diagnosis.doubt.agreement import is_rate_independent
 from hysteresis_bench.diagnosis.doubt.same_effects import better_law, simpler_law
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
-from hysteresis_bench.diagnosis.laws.choice import TIED
+from hysteresis_bench.diagnosis.hypotheses.expected_error import TIED
 from hysteresis_bench.diagnosis.laws.comparison import Comparison, compare
 from hysteresis_bench.diagnosis.preparation import with_held_out
 from hysteresis_bench.diagnosis.question import Question

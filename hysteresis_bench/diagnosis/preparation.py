@@ -97,7 +97,7 @@ def with_held_out(dataset: Dataset) -> tuple[Dataset, str]:
 
 
 def thinned(views: Sequence[View], samples: int = SEARCHED) -> tuple[Record, ...]:
-    """Every so manieth sample and all turning points, where there are more samples than a search needs."""
+    """Every n-th sample and all turning points, where there are more samples than a search needs."""
     stride = sum(view.y.size for view in views) // samples
     if stride < 2:
         return tuple(view.record for view in views)

@@ -95,9 +95,7 @@ class HiddenEffects(DrivenRig):
     imperfect: str = ""
 
     def __post_init__(self) -> None:
-        models = [
-            name for name in registry.names("models") if getattr(registry.load("models", name).loaded, "example", None)
-        ]
+        models = can_make_data()
         if self.model not in models:
             raise ValueError(f"no data can be made with the model {self.model!r}; there are: {', '.join(models)}")
         known = can_be_hidden(self._law)

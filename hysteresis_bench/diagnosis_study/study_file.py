@@ -47,7 +47,7 @@ class BenchSpec(Strict):
     first: NonNegativeInt = 0
 
     def numbers(self, trials: int) -> range:
-        """Of the cases."""
+        """Which cases are made, by number: so many trials, of this share of the study."""
         return range(self.first, self.first + trials * self.share)
 
 

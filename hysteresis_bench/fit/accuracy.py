@@ -52,8 +52,9 @@ def error_table(system: System, values: Array, dataset: Dataset) -> pd.DataFrame
     """record, role (fitted or held-out), and the accuracy of each;  values : (dimension,), in units."""
     rows = []
     for record in dataset.records:
-        role = "held-out" if record.name in dataset.held_out_names else "fitted"
-        rows.append({"record": record.name, "role": role, **accuracy(system, [record], values).as_dict()})
+        rows.append(
+            {"record": record.name, "role": dataset.role(record), **accuracy(system, [record], values).as_dict()}
+        )
     return pd.DataFrame(rows)
 
 
@@ -71,7 +72,7 @@ def response_table(dataset: Dataset, responses: Mapping[str, Sequence[Array]]) -
     for index, record in enumerate(dataset.records):
         columns = {
             "record": record.name,
-            "role": "held-out" if record.name in dataset.held_out_names else "fitted",
+            "role": dataset.role(record),
             "time": record.time[record.scored],
             "input": record.input[record.scored],
             "output": record.measured,

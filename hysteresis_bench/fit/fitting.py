@@ -224,7 +224,7 @@ def _space(system: System, records: Sequence[Record], bounds: Mapping[str, tuple
     faults, parameters = list[str](), list[Parameter]()
     for parameter in boxes:
         lower, upper = bounds.get(parameter.name, (parameter.lower, parameter.upper))
-        parameters.append(parameter.within(lower, upper, "linear" if lower <= 0 else parameter.scaling))
+        parameters.append(parameter.bounded(lower, upper))
         faults += [f"bounds {fault}" for fault in parameters[-1].faults()]
     if faults:
         raise UserError("fit", faults)

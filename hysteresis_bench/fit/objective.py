@@ -141,11 +141,6 @@ class Trace:
     losses: Array
     points: Array
 
-    def best_at(self, evaluations: Array) -> Array:
-        """Best loss after so many evaluations; inf before the first one."""
-        position = np.searchsorted(self.evaluations, evaluations, side="right")
-        return np.concatenate([[np.inf], self.losses])[position]
-
 
 class Objective:
     """A problem on a meter; contracts.Objective says what an optimizer may rely on, `shown` what it gets."""

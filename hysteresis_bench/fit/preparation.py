@@ -59,10 +59,10 @@ class Preparation:
         """The record as it is, its beginning turned into history."""
         return record.skip(seconds_in(record.units.get("time", "s"), self.skip)) if self.skip else record
 
-    def seen_input(self, measured: Array) -> Array:
+    def seen_input(self, measured: Values) -> Values:
         """The input that the model sees for the actuator's."""
-        sign = -1.0 if self.flip else 1.0
-        return sign * (measured - self.input_offset)
+        seen: Values = measured - self.input_offset
+        return -seen if self.flip else seen
 
     def measured_input(self, seen: Values) -> Values:
         """The actuator's input for the one that the model sees."""

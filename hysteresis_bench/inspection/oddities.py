@@ -20,6 +20,7 @@ from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.inspection.few_samples import few_told
 from hysteresis_bench.kernels.turning_points import turning_points
+from hysteresis_bench.kernels.white_noise import white_noise_rms
 from hysteresis_bench.signals import Record
 
 TURN = 0.05
@@ -109,10 +110,8 @@ def _false_reversals(record: Record) -> str:
 
 
 def _input_noise(record: Record) -> str:
-    """Fourth differences leave of a smooth drive nothing, and of white noise its size times the root of 70."""
-    difference = np.diff(record.input, 4)
-    spread = float(np.ptp(record.input)) or 1.0
-    noise = 1.4826 * float(np.median(np.abs(difference))) / np.sqrt(70.0) / spread if difference.size else 0.0
+    """By fourth differences, which leave nothing of a smooth drive."""
+    noise = white_noise_rms(record.input, 4) / (float(np.ptp(record.input)) or 1.0)
     cycle = 2.0 * record.time.size / max(turns(record).size, 1)
     if noise <= NOISY or cycle < CORNERS:
         return ""
@@ -242,8 +241,7 @@ def _turning(record: Record) -> float:
     rises = np.sign(float(np.sum((u - np.mean(u)) * (y - np.mean(y)))))
     rectangles = (at.size - 1) * float(np.ptp(u)) * (float(np.ptp(y)) or 1.0)
     area = float(np.sum(np.diff(u) * (y[1:] + y[:-1]) / 2.0))
-    noise = 1.4826 * float(np.median(np.abs(np.diff(y, 2)))) / np.sqrt(6.0) if y.size > 2 else 0.0
-    error = noise * float(np.sqrt(np.sum(((u[2:] - u[:-2]) / 2.0) ** 2)))
+    error = white_noise_rms(y, 2) * float(np.sqrt(np.sum(((u[2:] - u[:-2]) / 2.0) ** 2)))
     return float(rises * area / rectangles) if abs(area) > SIGNIFICANT * error else 0.0
 
 

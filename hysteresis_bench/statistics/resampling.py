@@ -15,7 +15,7 @@ from hysteresis_bench.statistics.description import quantile
 
 RESAMPLES = 2000
 LEVEL = 0.95
-"""Of the interval."""
+"""Of all intervals: how often they hold what they are of."""
 
 
 @lru_cache(maxsize=64)

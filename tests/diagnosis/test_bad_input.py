@@ -28,7 +28,7 @@ def first(dataset, **changes):
 
 
 def part_of(dataset, change=lambda record: record, step=1):
-    """Two records to fit and one held out, changed; every so manieth sample."""
+    """Two records to fit and one held out, changed; every n-th sample;  step : n."""
     names = ("fit-1", "fit-2", "held-1")
     records = [change(record).take(slice(None, None, step)) for record in dataset.records if record.name in names]
     return Dataset(tuple(records), names[2:])

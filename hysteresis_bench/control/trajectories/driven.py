@@ -51,12 +51,12 @@ def drive(fitted: FittedModel, forward: Forward, time: Array, wanted: Array, lim
     if section and even:
         law = forward.offset + section.undone(time, law - forward.offset)
     needed, cut = forward.input_for(law, limit)
-    seen = _seen(forward, needed)
+    seen = forward.preparation.seen_input(needed)
     if ahead and even:
         seen = ahead.input_for(time, seen)
-        needed = np.clip(_seen(forward, seen, back=True), -limit, limit)
+        needed = np.clip(forward.preparation.measured_input(seen), -limit, limit)
         cut = cut | (np.abs(needed) >= limit)
-    record = Record(time, _seen(forward, needed), None, units=fitted.units)
+    record = Record(time, forward.preparation.seen_input(needed), None, units=fitted.units)
     reached = fitted.system.respond(record, fitted.values[:, None])[:, 0]
     own = (*(ahead.names if ahead else ()), *(("the linear section",) if section else ()))
     ignored = forward.ignored if even else (*forward.ignored, *own)
@@ -67,10 +67,3 @@ def _static(fitted: FittedModel) -> set[str]:
     """Effects that the iterated inverse undoes with the law."""
     known = iterated_inverse(fitted)
     return {name for name, _ in known.system.effects}
-
-
-def _seen(forward: Forward, given: Array, back: bool = False) -> Array:
-    """What the model sees of the actuator's input, or back."""
-    sign = -1.0 if forward.preparation.flip else 1.0
-    offset = forward.preparation.input_offset
-    return sign * given + offset if back else sign * (given - offset)

@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.control.references import faded_in
 from hysteresis_bench.control.trajectories.driven import drive, forward_of
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.fit.model_file import FittedModel
@@ -115,6 +116,4 @@ def _own_error(fitted: FittedModel) -> float:
 def _sine(frequency: float, amplitude: float) -> tuple[Array, Array]:
     """Time and a sine that fades in over its first two periods, both (samples,)."""
     time = np.arange(PERIODS * SAMPLES) / (SAMPLES * frequency)
-    share = np.clip(time * frequency / (PERIODS - SCORED), 0.0, 1.0)
-    smooth = share**3 * (10.0 - 15.0 * share + 6.0 * share**2)
-    return time, amplitude * smooth * np.sin(2.0 * np.pi * frequency * time)
+    return time, amplitude * faded_in(time * frequency / (PERIODS - SCORED)) * np.sin(2.0 * np.pi * frequency * time)

@@ -12,7 +12,6 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples, equally_loud, f_tail, overlooked
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
-from hysteresis_bench.diagnosis.evidence.memory import LEVEL
 from hysteresis_bench.diagnosis.evidence.noise import clipped_rms
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL
@@ -38,6 +37,10 @@ that misses the shape as well, with twice of it none."""
 WHITE, LONGEST = 0.1, 20
 """Of what is left, the share that the noise from sample to sample may have in whether it is as loud throughout: so many
 samples are averaged, at most. Such noise may be louder at some times than at others."""
+
+UNLIKELY = 0.01
+"""p-value below which noise of one loudness does not come in such bursts, and below which what was held out is missed
+by more than what was fitted."""
 
 BURSTS = "What is left is loud at some times and quiet at others, as noise seldom is."
 
@@ -96,7 +99,7 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     caused = [test for test in telling if test.name not in OF_THE_NOISE]
     white = not any(test.name == "whiteness" for test in tests)
     noise = not (caused or equation.terms or louder or missed)
-    bursts = noise and not white and equally_loud(_averaged(residuals, floor)) < LEVEL
+    bursts = noise and not white and equally_loud(_averaged(residuals, floor)) < UNLIKELY
     slow = noise and not white and not bursts and _hidden(residuals, len(tests)) <= WRONG * floor
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
     ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
@@ -157,7 +160,7 @@ def _louder(stage: Stage, residuals: Sequence[Array], floor: float, parameters: 
     effective = effective_samples([part - level for part in squares])
     corrected = ratio * effective / (effective + 2.0 * parameters)
     p = f_tail(corrected, effective / len(residuals), effective - parameters)
-    return ratio > WRONG**2 or (ratio > MISFIT**2 and p < LEVEL)
+    return ratio > WRONG**2 or (ratio > MISFIT**2 and p < UNLIKELY)
 
 
 def other_zero(stage: Stage, floor: float, unit: str) -> str:

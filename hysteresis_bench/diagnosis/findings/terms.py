@@ -21,6 +21,8 @@ from hysteresis_bench.fit.unseen.blocks import blocked
 from hysteresis_bench.signals import Record
 
 LEVEL = 0.01
+"""p-value of the F test up to which a term joins, over all terms that it was chosen from."""
+
 MOST = 6
 """Terms of an equation that a person still reads."""
 

@@ -34,11 +34,13 @@ BUDGET = 1500
 """Evaluations of a global search: for the bare model, and when an effect has joined."""
 
 SEARCHES = 2
-CHAINS = 4
-"""Of them followed downhill."""
+"""Global searches of a system from seeds of their own; the better one counts."""
 
 RANDOM = 192
 """Points screened for another basin of attraction after an effect has joined."""
+
+CHAINS = 4
+"""Of them followed downhill."""
 
 DROWNED = 4.0
 """Of the RMS noise of a measured input, what a width on its axis must have: noise rarely swings wider. Bands that noise

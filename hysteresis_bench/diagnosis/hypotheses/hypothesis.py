@@ -42,8 +42,8 @@ class Hypothesis:
 
 @dataclass(frozen=True, eq=False)
 class Behind(Hypothesis):
-    """Far behind what it was to come up to, and followed no further. Its errors left out are those of the fit: less
-    than they are, and too much already."""
+    """Far behind what it was to come up to, and followed no further. In the place of its errors left out stand those of
+    the fit: a lower bound, and already too large to be chosen."""
 
 
 def at_bound(parameter: Parameter, x: float) -> bool:

@@ -86,9 +86,7 @@ class Stack:
     def _problem(self, names: frozenset[str]) -> Problem:
         system = self.system(names)
         boxes = [
-            p.within(*self.bounds[p.name], "linear" if self.bounds[p.name][0] <= 0 else p.scaling)
-            if self.bounds and p.name in self.bounds
-            else p
+            p.bounded(*self.bounds[p.name]) if self.bounds and p.name in self.bounds else p
             for p in system.box(self.records)
         ]
         return Problem(system, self.records, Space(tuple(boxes)), LOSSES["rmse"])

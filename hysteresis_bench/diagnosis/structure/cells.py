@@ -57,7 +57,7 @@ class Unlike:
     cells: tuple[Cell, ...]
 
 
-def read(branch: Branch, coordinate: Array, at: float, width: float) -> Array | None:
+def read(coordinate: Array, at: float, width: float) -> Array | None:
     """Weights of the samples that give the output where the coordinate is `at`, (samples,); None where there are too
     few samples, or only on one side."""
     distance = (coordinate - at) / (0.5 * width)
@@ -73,7 +73,7 @@ def read(branch: Branch, coordinate: Array, at: float, width: float) -> Array | 
 def along(course: Course, branch: Branch, coordinate: Array, ends: tuple[float, float], **said: Any) -> Iterator[Cell]:
     """The cells of a branch whose fields lie within the ends. coordinate : (samples,);  said : of every cell"""
     for at in places(*ends, course.field).tolist():
-        weights = read(branch, coordinate, at, course.field)
+        weights = read(coordinate, at, course.field)
         if weights is not None:
             yield Cell(branch, weights, at, **said)
 

@@ -11,11 +11,10 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.noise import unresolved
+from hysteresis_bench.diagnosis.evidence.noise_floor import FINEST
 from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.structure.colour import Colour, colour
 
-FINEST = 5e-4
-"""Share of the output's range below which curves are alike whatever the noise: rounding and integration."""
 SLOWEST = 5.0
 """Times the noise from sample to sample that slower noise may have: an autoregression of 0.9 has 4.4 times. What is
 above is the law's, seen by too few samples."""

@@ -37,7 +37,6 @@ def parameter_faults(model: Model, bounds: Mapping[str, tuple[float, float]], fi
         faults += [f'{what}: no parameter "{name}". {nearest(name, known)}' for name in names if name not in known]
     for name, (low, high) in bounds.items():
         if name in known:
-            scaling = "linear" if low <= 0 else known[name].scaling
-            faults += [f"bounds {fault}" for fault in known[name].within(low, high, scaling).faults()]
+            faults += [f"bounds {fault}" for fault in known[name].bounded(low, high).faults()]
     reasons = (known[name].refuses(value) for name, value in fixed.items() if name in known)
     return faults + [f"fixed {reason}" for reason in reasons if reason]

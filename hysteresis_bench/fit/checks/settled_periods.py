@@ -19,6 +19,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.kernels.white_noise import white_noise_rms
 from hysteresis_bench.signals import Record
 
 SAID = (
@@ -39,6 +40,7 @@ PLAYS = np.array((0.0, 0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8))
 PIECES = 6
 """Of each of their curves."""
 RIDGE = 1e-6
+"""Share of a column's sum of squares that is added to it: columns that are alike would leave the weights open."""
 NOISE = 3.0 * np.sqrt(2.0)
 """Times the noise's RMS by which two samples of one output may differ."""
 WORSE = 1.1
@@ -91,10 +93,9 @@ def _is_one(record: Record) -> bool:
 
 def _comes_back(u: Array, y: Array) -> bool:
     """Does the output end where it began, within its noise and what the input misses of coming back?"""
-    noise = 1.4826 * float(np.median(np.abs(np.diff(y, 4)))) / np.sqrt(70.0)  # as `inspection` has the input's
     missing = abs(float(u[-1] - u[0])) / float(np.max(np.abs(np.diff(u))))
     step = max(abs(float(y[1] - y[0])), abs(float(y[-1] - y[-2])))
-    return float(np.ptp(y)) > 0.0 and abs(float(y[-1] - y[0])) <= missing * step + NOISE * noise
+    return float(np.ptp(y)) > 0.0 and abs(float(y[-1] - y[0])) <= missing * step + NOISE * white_noise_rms(y, 4)
 
 
 def _played(x: Array) -> Array:

@@ -23,6 +23,7 @@ from hysteresis_bench.fit.smooth.pivoting import least_above
 from hysteresis_bench.fit.smooth.starts import starts
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.whole import LeftOut
+from hysteresis_bench.kernels.root_mean_square import rms
 
 SOLVED = "Solved, not searched: the least squares of a law as smooth as predicts best what was left out of the fit."
 STEPS = 15
@@ -101,7 +102,7 @@ class Smoothing:
         def left(point: Array) -> float:
             point = np.clip(point, 0.0, 1.0)
             tried.append(self._predicted(self._equations(point, out.blocks), point, near))
-            return _rms(tried[-1])
+            return rms(tried[-1])
 
         points = starts([self.problem.space.parameters[row] for row in self._others])
         losses = [left(point) for point in points]
@@ -276,7 +277,3 @@ def _unchosen(errors: Array, tried: Sequence[Array], blocks: Blocks) -> Array:
             of = blocks.fold == fold
             found[of] = tried[best - 1][of]
     return found
-
-
-def _rms(errors: Array) -> float:
-    return float(np.sqrt(np.mean(errors**2)))

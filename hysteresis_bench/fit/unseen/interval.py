@@ -25,6 +25,7 @@ from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.left_out import cut, left_out_errors, unseen_errors
 from hysteresis_bench.kernels.divided_differences import divided_differences
 from hysteresis_bench.kernels.longest_rest import longest_rest
+from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Record
 
 LEVELS = (50, 68, 90, 95, 99)
@@ -43,8 +44,6 @@ staircases 2.5 to 4. With half of this 4 of these devices are told of, with twic
 SLACK, SPAN = 0.01, 6.0
 """Share of an input's range that counts as nothing: beyond the fitted ones, and in a rest; there with so many times the
 RMS noise of the input, which lie between the highest and the lowest of some hundred samples of it."""
-NORMAL = 1.4826
-"""The standard deviation of normal values over their median absolute value."""
 
 
 def further(record: Record, ranges: Sequence[float]) -> str:
@@ -175,5 +174,6 @@ def rest(record: Record) -> float:
     """The longest time within which the scored input stays where it is, unit of time."""
     time = np.ascontiguousarray(record.time[record.scored])
     driven = np.ascontiguousarray(record.input[record.scored], dtype=float)
-    noise = NORMAL * float(np.median(np.abs(divided_differences(time, driven, 4, 1)))) if time.size > 4 else 0.0
+    left = divided_differences(time, driven, 4, 1) if time.size > 4 else np.zeros(1)
+    noise = float(np.median(np.abs(left))) / MEDIAN
     return float(longest_rest(time, driven, SLACK * float(np.ptp(driven)) + SPAN * noise))

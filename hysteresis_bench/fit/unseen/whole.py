@@ -28,7 +28,7 @@ its error does; on generated loops there is little between 1 and 2."""
 FEWEST = 2
 """Whole parts left out from which they can judge."""
 PARTS = 6
-"""Of a lone record."""
+"""Into which a lone record is cut, each to be left out in its turn."""
 BEYOND = 0.05
 """Share of the range of all by which a part may exceed the others and still be said to stay within."""
 SMALLER = 0.8

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.white_noise import white_noise_rms
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record
 
@@ -86,9 +87,7 @@ def _sense(record: Record) -> int:
     steps = np.append(np.diff(u), u[0] - u[-1])
     between = 0.5 * (closed[1:] + closed[:-1])
     area = -float(between @ steps)
-    bends = np.diff(y, 2)
-    noise = float(np.median(np.abs(bends))) / (0.6745 * np.sqrt(6.0)) if bends.size else 0.0
-    error = noise * float(np.sqrt(np.sum((0.5 * (steps + np.roll(steps, 1))) ** 2)))
+    error = white_noise_rms(y, 2) * float(np.sqrt(np.sum((0.5 * (steps + np.roll(steps, 1))) ** 2)))
     # the last step closes the loop along a straight line, where the output may have moved on
     error = float(np.hypot(error, 0.5 * abs(float(steps[-1]) * (y[-1] - y[0]))))
     return int(np.sign(area)) if abs(area) > max(SIGNIFICANT * error, THIN * box) else 0

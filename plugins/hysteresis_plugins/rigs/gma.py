@@ -28,7 +28,7 @@ QUARTIC = -0.3
 """Share of the fourth power in the strain, ours: rotation of domains that are nearly aligned strains less."""
 SHELLS = 12
 CLASSES = 60
-"""Of coercive field."""
+"""Into which the domains are sorted by their coercive field."""
 
 
 @dataclass(frozen=True)

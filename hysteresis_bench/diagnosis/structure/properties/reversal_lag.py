@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.diagnosis.evidence.noise_floor import FINEST
 from hysteresis_bench.diagnosis.structure.cells import MOST
 from hysteresis_bench.diagnosis.structure.course import Course
 from hysteresis_bench.diagnosis.structure.curves import Curve
@@ -43,7 +44,7 @@ def reversal_lag(course: Course) -> Finding:
     loose = min(_left(course, windows, _cleared(gap))[0] for gap in gaps)
     bends = min(_left(course, windows, _as_it_is, bend)[0] for bend in BENDS)
     best = int(np.argmin(late))
-    floor = degrees * ((course.span_y * 5e-4) ** 2 + sum(course.noise.variances))
+    floor = degrees * ((course.span_y * FINEST) ** 2 + sum(course.noise.variances))
     gain = min(none, loose, bends) - late[best]
     slow = sum(v * (1.0 + d) / (1.0 - d) for d, v in zip(course.noise.decays, course.noise.variances, strict=True))
     unit = max(late[best], floor) / degrees * max(slow / max(sum(course.noise.variances), 1e-300), 1.0)

@@ -22,7 +22,7 @@ NARROW = 0.01
 """By which share of itself, or of the data's range, a box is wide of what that range tells."""
 
 POINTS = 61
-"""Of a drawn curve."""
+"""Places at which a curve is computed to be drawn."""
 
 
 @dataclass(frozen=True)
