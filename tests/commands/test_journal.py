@@ -10,9 +10,10 @@ import pytest
 from click.testing import CliRunner
 
 from hysteresis_bench.cli import main
-from hysteresis_bench.commands.data.journal import Journal, digest, journal
+from hysteresis_bench.commands.data.journal import ANSWERS, Journal, digest, journal
 from hysteresis_bench.commands.outputs import UNFINISHED
-from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.diagnosis.doubt.other_laws import Contender
+from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind, Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.errors import UserError
@@ -133,6 +134,21 @@ def test_answers_come_back_to_the_last_bit(tmp_path):
     assert (found_law.fitted, found_law.parameters) == (law.fitted, law.parameters)
     assert np.isnan(found_law.held_out)
     assert again.get(("a", hypothesis(0.2))) is None
+
+
+def test_what_was_left_behind_comes_back_as_that(tmp_path):
+    """The same system is asked of again within one run, as of records that are read otherwise."""
+    wave = np.sin(np.arange(50.0))
+    kept = Journal(tmp_path / UNFINISHED, "of")
+    kept["a",] = Behind(frozenset({"bias"}), {"d": 0.3}, wave, wave, ())
+    assert isinstance(kept.get(("a",)), Behind)
+
+
+def test_every_kind_of_answer_is_known():
+    def every(kind):
+        return {kind, *(below for one in kind.__subclasses__() for below in every(one))}
+
+    assert {*ANSWERS.values()} == every(Hypothesis) | every(Law) | every(Contender)
 
 
 def test_what_is_damaged_is_told_and_fitted_again(tmp_path):
