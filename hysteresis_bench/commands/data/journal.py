@@ -24,11 +24,12 @@ from hysteresis_bench import registry
 from hysteresis_bench.commands.outputs import UNFINISHED
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind, Hypothesis
+from hysteresis_bench.diagnosis.hypotheses.smooth_fitter import Smooth
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.study.origin import processor, versions
 
-ANSWERS: Mapping[str, type] = {kind.__name__: kind for kind in (Hypothesis, Behind, Law, Contender)}
+ANSWERS: Mapping[str, type] = {kind.__name__: kind for kind in (Hypothesis, Behind, Smooth, Law, Contender)}
 
 
 @contextmanager
