@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from hysteresis_bench import registry
 from hysteresis_bench.fit.unseen.excitations import excitations
-from hysteresis_bench.fit.unseen.whole import last_part, left_out
+from hysteresis_bench.fit.unseen.whole import extrapolated, last_part, left_out
 from hysteresis_bench.signals import Record
 
 TIME = np.linspace(0.0, 6.0, 1200)
@@ -32,6 +33,24 @@ def test_no_smoother_density_is_taken_where_the_least_error_is_what_to_expect():
     other = 1.0 + 0.1 * np.random.default_rng(0).standard_normal(found.blocks.block.max() + 1)[found.blocks.block]
     assert found.as_good(best, other)
     assert not replace(found, like=True).as_good(best, other)
+
+
+def lasting(share, name):
+    return record(1.0, name).take(slice(0, int(share * TIME.size)))
+
+
+@pytest.mark.parametrize(
+    ("shares", "beyond"),
+    [((1.0, 0.5, 0.7), {0}), ((1.0, 1.0, 0.5), set()), ((0.97, 1.0, 0.99), set()), ((1.0,), set())],
+)
+def test_the_record_that_lasts_longest_is_the_one_that_a_curve_of_time_is_extrapolated_on(shares, beyond):
+    records = [lasting(share, str(k)) for k, share in enumerate(shares)]
+    curves = [registry.build("effects", "gain-with-time", {})]
+    assert extrapolated(curves, records) == beyond
+    assert not extrapolated([registry.build("effects", "creep", {})], records)
+    found = left_out(records, beyond)
+    for k, fold in enumerate(np.split(found.blocks.fold, np.cumsum([one.time.size for one in records])[:-1])):
+        assert (np.unique(fold).size > 1) == (k in beyond or len(records) == 1)
 
 
 def test_one_smaller_amplitude_is_too_few_to_tell():

@@ -22,6 +22,7 @@ from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
+from hysteresis_bench.fit.unseen.whole import extrapolated
 from hysteresis_bench.kernels.root_mean_square import rms
 
 REMAINS = 1.1
@@ -120,7 +121,8 @@ def ceiling(fitter: Fitter, named: Hypothesis, floor: float, noise: Noise) -> Ce
     """Of the fitted records.  named : the final system;  floor : RMS below which nothing is judged"""
     # neither folds nor sums may depend on the order in which the records came
     records = tuple(sorted(fitter.stack.records, key=lambda record: record.name))
-    folds = folds_of(records)
+    effects = [fitter.stack.effect(name) for name in sorted(named.names)]
+    folds = folds_of(records, extrapolated(effects, records))
     left = fitter.errors_without(named, records, folds.blocks)
     number = np.repeat(np.arange(len(records)), [record.measured.size for record in records])
     centred = registry.RECORD_OFFSET in named.names

@@ -6,7 +6,7 @@ goes further blocks are, as no black box can know what lies beyond, and so are p
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -62,9 +62,9 @@ class Folds:
         return Fold(frozenset(np.unique(self.part[out]).tolist()), np.flatnonzero(out), place)
 
 
-def folds_of(records: Sequence[Record]) -> Folds:
-    """Of the records' scored samples."""
-    blocks, cells = left_out(records).blocks, cut(records)
+def folds_of(records: Sequence[Record], extrapolating: Collection[int] = ()) -> Folds:
+    """Of the records' scored samples.  extrapolating : numbers of records that are not left out whole either"""
+    blocks, cells = left_out(records, extrapolating).blocks, cut(records)
     part = blocks.fold
     if blocks.folds == 2:
         part = np.unique(np.column_stack([blocks.fold, cells.fold]), axis=0, return_inverse=True)[1].ravel()

@@ -26,7 +26,7 @@ from hysteresis_bench.fit.unseen.advantage import chance
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.excitations import Excitations, excitations
 from hysteresis_bench.fit.unseen.left_out import cut, errors_without, left_out_errors
-from hysteresis_bench.fit.unseen.whole import left_out
+from hysteresis_bench.fit.unseen.whole import extrapolated, left_out
 from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.signals import Record
 
@@ -165,7 +165,11 @@ class Fitter:
         further than all others, those of its blocks."""
         if len(self.stack.records) == 1:
             return hypothesis.left_out
-        return self._without(hypothesis, left_out(self.stack.records).blocks)
+        return self._without(hypothesis, left_out(self.stack.records, self.extrapolated(hypothesis)).blocks)
+
+    def extrapolated(self, hypothesis: Hypothesis) -> frozenset[int]:
+        """Numbers of the records on which a curve of it would be extrapolated, if it were fitted to all others."""
+        return extrapolated(map(self.stack.effect, sorted(hypothesis.names)), self.stack.records)
 
     def apart(self, hypothesis: Hypothesis) -> Array:
         """Errors (scored samples,) of every record, of a lone one of every part, by a fit to the others."""

@@ -4,7 +4,8 @@ Held-out records have no part in this; only fitted excitations are left out in t
 
 1. The bare model, and the systems that grow from it by one adopted effect after the other, predict what was left out.
    Where the last one does worse than the bare model, the one that does it best is kept. Every excitation counts alike:
-   on one that goes beyond all others what is undetermined without it runs wild, with whatever effect.
+   on one that goes beyond all others what is undetermined without it runs wild, with whatever effect. Those count on
+   which a curve of the time, the path or the temperature would be extrapolated only where all are such.
 2. An effect with which any excitation between the others is predicted clearly worse than without it leaves.
 3. Of one loop nothing can be left out. What follows such a path better may be any curve, and a law that does not come
    down to the noise asks for one. Effects stay there only if with them the noise is nearly reached.
@@ -72,10 +73,11 @@ def fall_back(fitter: Fitter, base: Hypothesis, order: Grown, floor: float) -> F
         return Fallback(names, last.rmse, base.rmse, base.rmse, tested=False) if last.rmse > WRONG * floor else None
     if not fitter.excitations.apart:
         return None
-    selected, bare = _predicted(fitter, last, floor), _predicted(fitter, base, floor)
+    judged = _judged(fitter, last)
+    selected, bare = _predicted(fitter, last, floor, judged), _predicted(fitter, base, floor, judged)
     if selected <= bare:
         return None
-    errors = [bare, *(_predicted(fitter, system, floor) for _, system in order[:-1])]
+    errors = [bare, *(_predicted(fitter, system, floor, judged) for _, system in order[:-1])]
     kept = int(np.argmin(errors))
     return Fallback(tuple(name for name, _ in order[kept:]), selected, errors[kept], bare)
 
@@ -87,7 +89,8 @@ def misleading(
 
     without : for each adopted effect, the selected system without it
     """
-    inner = fitter.excitations.inner
+    judged = _judged(fitter, best)
+    inner = [k for k in fitter.excitations.inner if k in judged]
     if not inner or not without:
         return None
     records = fitter.stack.records
@@ -103,7 +106,7 @@ def misleading(
     if not found:
         return None
     _, worst, record = max(found, key=lambda one: one[0])
-    selected, kept, bare = (_predicted(fitter, one, floor) for one in (best, without[worst], base))
+    selected, kept, bare = (_predicted(fitter, one, floor, judged) for one in (best, without[worst], base))
     return Fallback((worst,), selected, kept, bare, worse_on=(record,))
 
 
@@ -114,7 +117,8 @@ def unseen_rmse(fitter: Fitter, hypothesis: Hypothesis) -> float:
 
 def predicts_better(fitter: Fitter, one: Hypothesis, other: Hypothesis, floor: float) -> bool:
     """Does it predict what can be left out better?"""
-    return _predicted(fitter, one, floor) < _predicted(fitter, other, floor)
+    every = fitter.excitations.apart
+    return _predicted(fitter, one, floor, every) < _predicted(fitter, other, floor, every)
 
 
 def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> list[Hypothesis]:
@@ -125,9 +129,15 @@ def predicting(fitter: Fitter, hypotheses: list[Hypothesis], worse: float) -> li
     return [one for one, square in zip(hypotheses, squares, strict=True) if (1.0 - worse) * square <= min(squares)]
 
 
-def _predicted(fitter: Fitter, hypothesis: Hypothesis, floor: float) -> float:
-    """Of what can be left out, whole records or parts of a lone one: geometric mean of the RMSE of each, of which none
+def _judged(fitter: Fitter, hypothesis: Hypothesis) -> tuple[int, ...]:
+    """Of the excitations that can be left out those on which none of its curves is extrapolated, or all."""
+    every, beyond = fitter.excitations.apart, fitter.extrapolated(hypothesis)
+    return tuple(k for k in every if k not in beyond) or every
+
+
+def _predicted(fitter: Fitter, hypothesis: Hypothesis, floor: float, judged: Sequence[int]) -> float:
+    """Of whole records left out, or parts of a lone one, by number: geometric mean of the RMSE of each, of which none
     counts as less than the floor."""
-    left, excitations = fitter.apart(hypothesis), fitter.excitations
-    each = [max(rms(left[excitations.number == k]), floor) for k in excitations.apart]
+    left, number = fitter.apart(hypothesis), fitter.excitations.number
+    each = [max(rms(left[number == k]), floor) for k in judged]
     return float(np.exp(np.mean(np.log(each))))

@@ -3,7 +3,8 @@
 Every fitted record is predicted by a fit to the others, every held-out one by the fit itself. Where they are alike with
 the next record, the largest of their own quantiles holds that share of its samples with a probability of records /
 (records + 1), whatever the noise or the law [1]. Ours: a record, not a sample, is what is exchanged, as errors of
-neighbouring samples are alike; and the fits differ by the record that is left out, as in the jackknife.
+neighbouring samples are alike; and the fits differ by the record that is left out, as in the jackknife. Ours too: a
+record on which a curve of the time, the path or the temperature would be extrapolated has no say where others have.
 
 [1] V. Vovk, A. Gammerman, G. Shafer, Algorithmic Learning in a Random World, Springer (2005); for records of several
 samples R. Dunn, L. Wasserman, A. Ramdas, J. Am. Stat. Assoc. 118 (2023) 2491.
@@ -23,6 +24,7 @@ from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.left_out import cut, left_out_errors, unseen_errors
+from hysteresis_bench.fit.unseen.whole import extrapolated
 from hysteresis_bench.kernels.divided_differences import divided_differences
 from hysteresis_bench.kernels.longest_rest import longest_rest
 from hysteresis_bench.kernels.white_noise import MEDIAN
@@ -150,7 +152,9 @@ def interval(problem: Problem, values: Array, held_out: Sequence[Record], left_o
         left = left_out_errors(problem, point, cut(records)) if alone else unseen_errors(problem, point)
     column = values[:, None]
     new = [problem.system.respond(record, column)[record.scored, 0] - record.measured for record in held_out]
-    errors = [*split(left, records), *new]
+    beyond = extrapolated((effect for _, effect in problem.system.effects), records)
+    fitted = [one for k, one in enumerate(split(left, records)) if k not in beyond] or split(left, records)
+    errors = [*fitted, *new]
     widths = {level: max(float(np.quantile(np.abs(one), level / 100.0)) for one in errors) for level in LEVELS}
     speeds = [speed(record) for record in records]
     # of less than a sample's step nothing is known

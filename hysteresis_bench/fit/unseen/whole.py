@@ -4,22 +4,29 @@ A record is left out whole where its input stays in the range of the others, and
 cycles of its own. One that goes further says how a law extrapolates, which nobody is promised, and whose large errors
 would drown all others: blocks are left out of it instead.
 
+So is one on which a curve of the time, the path or the temperature would be extrapolated, for whom that is asked: of
+several records one always lasts longest, or goes the longest way, and without it such a curve may end anywhere.
+
 What is left out of a lone record lies between what is fitted, while what is predicted follows on it, often further. Its
 last part, predicted from what came before, is therefore judged as well, as far as it stays near.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.contracts import Effect, Family
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import cut
+from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.signals import Record
+
+COURSE: Family = "change with time, path or temperature"
 
 SMOOTHER = 1.5
 """Blocks left out of one excitation have its own amplitude, so that a rougher density wins them and may yet fail at
@@ -68,8 +75,8 @@ class LeftOut:
         return float(np.mean(other**2)) <= SMOOTHER**2 * float(np.mean(best**2))
 
 
-def left_out(records: Sequence[Record]) -> LeftOut:
-    """Of the records' scored samples."""
+def left_out(records: Sequence[Record], extrapolating: Collection[int] = ()) -> LeftOut:
+    """Of the records' scored samples.  extrapolating : numbers of records that are not left out whole either"""
     cells = cut(records)
     sizes = [record.measured.size for record in records]
     number = np.repeat(np.arange(len(records)), sizes)
@@ -81,6 +88,7 @@ def left_out(records: Sequence[Record]) -> LeftOut:
     within = staying(inputs)
     if len(records) == 1:
         within = [one and cycles(values) for one, values in zip(within, inputs, strict=True)]
+    within = [one and k not in extrapolating for k, one in enumerate(within)]
     whole = np.flatnonzero(within) if low.size > 1 else np.empty(0, dtype=int)
     groups = min(GROUPS, whole.size)
     fold = cells.fold + groups
@@ -102,6 +110,28 @@ def staying(inputs: Sequence[Array]) -> list[bool]:
         bool(low[k] >= np.delete(low, k).min() - slack and high[k] <= np.delete(high, k).max() + slack)
         for k in range(low.size)
     ]
+
+
+def extrapolated(effects: Iterable[Effect], records: Sequence[Record]) -> frozenset[int]:
+    """Numbers of the records that go further than all others, by `BEYOND` of the range of all, along the time, the path
+    or the temperature that a curve among the effects runs along."""
+    curves = [effect for effect in effects if isinstance(effect, FreeForm) and effect.family == COURSE]
+    if len(records) < 2:
+        return frozenset()
+    every = [_ends(curve, records) for curve in curves]
+    return frozenset(
+        k
+        for k in range(len(records))
+        for curve, ends in zip(curves, every, strict=True)
+        if np.max(np.abs(ends - _ends(curve, [*records[:k], *records[k + 1 :]]))) > BEYOND * np.ptp(ends)
+    )
+
+
+def _ends(curve: FreeForm, records: Sequence[Record]) -> Array:
+    """Where a curve of these records begins and ends; one that is told by its length begins at 0."""
+    box = {parameter.name: parameter for parameter in curve.box(records)}
+    ends = [0.5 * (box[name].lower + box[name].upper) for name in curve.ranges]
+    return np.array([0.0, *ends] if len(ends) == 1 else ends)
 
 
 def last_part(records: Sequence[Record]) -> Array:

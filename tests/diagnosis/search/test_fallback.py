@@ -70,10 +70,34 @@ def test_an_excitation_on_which_any_law_runs_wild_counts_as_one(beyond, gives_up
         return Hypothesis(frozenset(), {}, np.zeros(200), np.repeat(errors, 50), ())
 
     together = SimpleNamespace(apart=(0, 1, 2, 3), number=number, only_one=False)
-    fitter = SimpleNamespace(excitations=together, apart=lambda hypothesis: hypothesis.left_out)
+    fitter = SimpleNamespace(
+        excitations=together, apart=lambda hypothesis: hypothesis.left_out, extrapolated=lambda hypothesis: frozenset()
+    )
     bare, more = leaving(2.0, 2.0, 2.0, 5.0), leaving(1.0, 1.0, 1.0, 5.0 * beyond)
     assert unseen_rms(more) > unseen_rms(bare)
     assert (fall_back(fitter, bare, [("fatigue", more)], NOISE) is not None) == gives_up
+
+
+def fading(name, cycles, amplitude):
+    """Bouc-Wen; the output becomes smaller by a power of the cycles that have gone."""
+    bare = Record(TIME, amplitude * np.sin(2 * np.pi * cycles * TIME / TIME[-1]), None, name)
+    gone = cycles * TIME / TIME[-1]
+    noise = NOISE * np.random.default_rng(cycles).standard_normal(TIME.size)
+    return replace(bare, output=bare_output(bare) * (1.0 + gone) ** -0.1 + noise)
+
+
+def test_the_record_with_the_longest_path_does_not_judge_the_curve_that_it_alone_determines():
+    """Without it the curve ends anywhere: the other records are predicted at the noise."""
+    records = (fading("short", 3, 4.0), fading("small", 3, 2.5), fading("long", 12, 4.0))
+    fitter = Fitter(Stack(registry.build("models", "bouc-wen"), records))
+    base, order = grown(fitter, "gain-with-path")
+    curve = order[-1][1]
+    assert fitter.extrapolated(curve) == {2}
+    assert not fitter.extrapolated(base)
+    own = [np.sqrt(np.mean(fitter.apart(curve)[fitter.excitations.number == k] ** 2)) for k in range(3)]
+    assert own[2] > 5.0 * max(own[:2])
+    assert fall_back(fitter, base, order, NOISE) is None
+    assert unseen_rmse(fitter, curve) < 0.3 * unseen_rmse(fitter, base)
 
 
 def unseen_rms(hypothesis):
