@@ -17,7 +17,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.systems import is_curve
 from hysteresis_bench.diagnosis.search.fallback import predicts_better, unseen_rmse
-from hysteresis_bench.diagnosis.search.selection import ALIKE, NAMED, REACHED, Selection
+from hysteresis_bench.diagnosis.search.selection import ALIKE, LEVEL, NAMED, REACHED, Selection
 from hysteresis_bench.diagnosis.search.sets import best_of_all, claims, fits
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 
@@ -105,20 +105,35 @@ def _shaped(selection: Selection, current: Hypothesis, names: tuple[str, ...]) -
 
 def _in_place_of_offsets(selection: Selection, current: Hypothesis) -> Hypothesis:
     """What a formula does wrong may hide in an offset of every record, which no other record has. A free form in the
-    place of a name that leaves no more without these offsets does what they did."""
-    offset, fitter = registry.RECORD_OFFSET, selection.fitter
+    place of a name that leaves no more without these offsets does what they did; and in the place of a curve that has
+    no dynamics, one of another family too, as a bend of the sensor passes for one of the input."""
+    offset, effect = registry.RECORD_OFFSET, selection.fitter.stack.effect
     if offset not in current.names or not selection.adopted(current):
         return current
     (without,) = selection.workers.map([("reduced", current, offset)])
-    if without.rmse <= REACHED * max(current.rmse, selection.floor):
+    if not _told(selection, without, current):
         return current
-    forms = [form for form in selection.forms if form not in current.names and not fitter.stack.effect(form).estimates]
-    tried = _in_place(selection, without, forms)
+    forms = [form for form in selection.forms if form not in current.names and not effect(form).estimates]
+    curves = [form for form in forms if is_curve(effect(form))]
+    bent = {name: selection.without(without, name) for name in selection.adopted(without) if is_curve(effect(name))}
+    other = (without.values, without.rmse)
+    elsewhere = [("extended", bent[n], f, *other) for n in bent for f in curves if effect(f).family != effect(n).family]
+    tried = [*_in_place(selection, without, forms), *selection.workers.map(elsewhere)]
     found = [one for one in tried if one.rmse <= current.rmse and one.cv_rmse <= current.cv_rmse]
-    clear = [one for one in found if fits(selection, one) and _clearly(selection, without, one)]
+    clear = [
+        one
+        for one in found
+        if fits(selection, one) and selection.share(without, one) > NAMED and _told(selection, without, one)
+    ]
     if not clear:
         return current
     return _alone(selection, selection.workers.map([("extended", selection.simplest(clear), offset)])[0])
+
+
+def _told(selection: Selection, smaller: Hypothesis, larger: Hypothesis) -> bool:
+    """Do the data tell that the larger one is better, by however little?"""
+    test, gain = selection.compared(smaller, larger)
+    return test.p < LEVEL and gain > CLEAR
 
 
 def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
