@@ -106,7 +106,7 @@ def test_json_of_fit_predict_and_diagnose(here):
     jsonschema.validate(found, schema("diagnosis"))
     assert fitted["figure"] == "f.svg"
     assert "Fitted minus measured" in (here / "f.svg").read_text(encoding="utf-8")
-    assert "Measured minus simulated" in (here / "d.svg").read_text(encoding="utf-8")
+    assert "Simulated minus measured" in (here / "d.svg").read_text(encoding="utf-8")
 
 
 def test_json_of_lists():
