@@ -182,10 +182,8 @@ def _of_the_law(outcome: Outcome, unit: str) -> Iterator[str]:
         without = f"does without {listed(names)} or the like"
         if len(others) > 1:
             yield f"None of the {len(others)} other laws that leave no more {without}."
-        elif others:
-            yield f"No other law that leaves no more {without}."
-        elif not cause and outcome.reaches:  # else that was said
-            yield "No other law here leaves as little."
+        elif others or (outcome.reaches and not cause):
+            yield f"No other law that leaves no more {without}." if others else "No other law here leaves as little."
     if refused := outcome.doubt.asks_for(outcome.adopted):
         yield f"{listed(refused)} would be needed too, but does not help {outcome.model} to predict records left out."
     if outcome.stand_ins:
