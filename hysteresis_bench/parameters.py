@@ -24,6 +24,7 @@ class Parameter:
     scaling : how the unit interval maps to the box: linear, or log where decades matter
     null : the value that switches an effect off; None for a parameter that switches nothing
     positive : whether the model makes sense only above 0, as with a width
+    limit : an edge of the box that is a limiting form, such as a clip of a bend: nothing is amiss there
     """
 
     name: str
@@ -34,6 +35,7 @@ class Parameter:
     null: float | None = None
     meaning: str = ""
     positive: bool = False
+    limit: float | None = None
 
     def within(self, lower: float, upper: float, scaling: Scaling | None = None) -> Parameter:
         """The same parameter in another box."""

@@ -38,7 +38,7 @@ def test_saturation(y, size):
     y *= size
     y[5], y[7, 0] = 0.0, np.nan
     for inverse_level in (drawn(2, 0.0, 1.0), drawn(2, 0.0, 1.0) / size, 1e9 * drawn(2, 0.5, 1.0)):
-        sharpness = np.geomspace(1.0, 20.0, SWARM)
+        sharpness = np.geomspace(1.0, 1000.0, SWARM)
         expected, found = saturated(y, inverse_level, sharpness), y.copy()
         saturate(found, inverse_level, sharpness)
         np.testing.assert_allclose(found, expected, rtol=1e-14, atol=0)

@@ -47,9 +47,9 @@ class Behind(Hypothesis):
 
 
 def at_bound(parameter: Parameter, x: float) -> bool:
-    """Does it lie at an edge of its box that does not mean "off"?  x : in the unit interval"""
+    """Does it lie at an edge of its box that means neither "off" nor a limiting form?  x : in the unit interval"""
     if EDGE < x < 1.0 - EDGE:
         return False
     edge = parameter.lower if x <= EDGE else parameter.upper
     off = parameter.null is not None and (edge == parameter.null or (parameter.scaling == "log" and x <= EDGE))
-    return not off
+    return not (off or edge == parameter.limit)
