@@ -95,9 +95,14 @@ def point_of(problem: Problem, values: Mapping[str, float]) -> Array:
 
 
 def at_bound(space: Space, values: Array) -> Array:
-    """Which parameters lie at an edge of their box, (dimension,) of bool; values : (dimension,), in units."""
+    """Which parameters lie at an edge of their box that is no limiting form, (dimension,) of bool.
+
+    values : (dimension,), in units
+    """
     point = space.to_unit(values.reshape(-1, 1))[:, 0]
-    return (point < AT_BOUND) | (point > 1.0 - AT_BOUND)
+    low = np.array([p.lower != p.limit for p in space.parameters], dtype=bool)
+    high = np.array([p.upper != p.limit for p in space.parameters], dtype=bool)
+    return low & (point < AT_BOUND) | high & (point > 1.0 - AT_BOUND)
 
 
 def values_of(problem: Problem, point: Array) -> dict[str, float]:

@@ -9,13 +9,22 @@ from scipy.optimize import least_squares
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack
-from hysteresis_bench.fit.least_squares import descend, errors, not_overlooked, point_of, polish, split, values_of
+from hysteresis_bench.fit.least_squares import (
+    at_bound,
+    descend,
+    errors,
+    not_overlooked,
+    point_of,
+    polish,
+    split,
+    values_of,
+)
 from hysteresis_bench.fit.loss import LOSSES
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.unseen.advantage import advantage, chance
 from hysteresis_bench.fit.unseen.blocks import Blocks
 from hysteresis_bench.fit.unseen.left_out import FOLDS, cut, left_out_errors
-from hysteresis_bench.parameters import Space
+from hysteresis_bench.parameters import Parameter, Space
 from hysteresis_bench.signals import Record
 from tests.diagnosis.generator import make
 
@@ -132,3 +141,12 @@ def test_what_a_search_found_stays_where_nothing_is_better():
     problem, own = around("drift")
     best = polish(problem, np.append(own, 0.0))
     assert np.array_equal(not_overlooked(problem, best, lambda bare: own), best)
+
+
+def test_a_limiting_form_is_no_edge_of_a_box():
+    bend = Parameter("bend", 1.0, 1000.0, scaling="log", limit=1000.0)
+    space = Space((bend, Parameter("gain", 0.0, 2.0)))
+    assert at_bound(space, np.array([1000.0, 2.0])).tolist() == [False, True]
+    assert at_bound(space, np.array([1.0, 1.0])).tolist() == [True, False]
+    narrower = Space((bend.within(1.0, 20.0),))
+    assert at_bound(narrower, np.array([20.0])).tolist() == [True]

@@ -37,8 +37,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from hysteresis_bench.diagnosis.hypotheses.expected_error import TIED as TIED
-from hysteresis_bench.diagnosis.hypotheses.expected_error import weighed
+from hysteresis_bench.diagnosis.hypotheses.expected_error import TIED, weighed
 from hysteresis_bench.diagnosis.laws.law import Law
 from hysteresis_bench.fit.unseen.blocks import Blocks
 

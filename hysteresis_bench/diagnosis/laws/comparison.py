@@ -16,9 +16,10 @@ from hysteresis_bench.diagnosis.evidence.memory import memory
 from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG, floor_of
 from hysteresis_bench.diagnosis.evidence.view import views_of
+from hysteresis_bench.diagnosis.hypotheses.expected_error import TIED
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.laws.baseline import baseline_ahead, baseline_errors, polynomial
-from hysteresis_bench.diagnosis.laws.choice import TIED, choose, ranking
+from hysteresis_bench.diagnosis.laws.choice import choose, ranking
 from hysteresis_bench.diagnosis.laws.exclusion import excluded, unlike_in_unit, why_not
 from hysteresis_bench.diagnosis.laws.law import Law, both
 from hysteresis_bench.diagnosis.laws.passing import MOST, Passing

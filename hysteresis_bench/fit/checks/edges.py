@@ -16,16 +16,14 @@ from hysteresis_bench.fit.objective import Problem
 def edges_reached(problem: Problem, values: Array) -> Array:
     """Which parameters lie at an edge of their box, (dimension,) of bool; values : (dimension,), in units.
 
-    A weight of a sum that is about 0 does not: that part of the sum is not there, or the data cannot see it. Nor does
-    what comes to a limiting form.
+    A weight of a sum that is about 0 does not: that part of the sum is not there, or the data cannot see it.
     """
     space = problem.space
     upper = space.to_unit(values.reshape(-1, 1))[:, 0] > 0.5
     nearest = np.where(upper, [p.upper for p in space.parameters], [p.lower for p in space.parameters])
     weights = [*problem.system.model.linear, *problem.system.linear]
     absent = np.isin(space.names, weights) & (nearest == 0.0)
-    limiting = np.array([edge == p.limit for edge, p in zip(nearest, space.parameters, strict=True)], dtype=bool)
-    reached: Array = at_bound(space, values) & ~absent & ~limiting
+    reached: Array = at_bound(space, values) & ~absent
     return reached
 
 

@@ -153,8 +153,8 @@ def interval(problem: Problem, values: Array, held_out: Sequence[Record], left_o
     column = values[:, None]
     new = [problem.system.respond(record, column)[record.scored, 0] - record.measured for record in held_out]
     beyond = extrapolated((effect for _, effect in problem.system.effects), records)
-    fitted = [one for k, one in enumerate(split(left, records)) if k not in beyond] or split(left, records)
-    errors = [*fitted, *new]
+    every = split(left, records)
+    errors = [*([one for k, one in enumerate(every) if k not in beyond] or every), *new]
     widths = {level: max(float(np.quantile(np.abs(one), level / 100.0)) for one in errors) for level in LEVELS}
     speeds = [speed(record) for record in records]
     # of less than a sample's step nothing is known

@@ -27,6 +27,7 @@ from hysteresis_bench.free_forms import FreeForm
 from hysteresis_bench.signals import Record
 
 COURSE: Family = "change with time, path or temperature"
+"""Of effects along which a record may go further than all others, whatever its input does."""
 
 SMOOTHER = 1.5
 """Blocks left out of one excitation have its own amplitude, so that a rougher density wins them and may yet fail at
