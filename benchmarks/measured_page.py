@@ -41,7 +41,7 @@ def answer(rows: pd.DataFrame) -> list[str]:
     above = ran[ran["ratio"] >= GOAL]
     if len(above):
         each = ", ".join(f"{row.device} ({number(row.ratio, 4)})" for row in above.itertuples())
-        told.append(f"Not so: {each}.")
+        told.append(f"Not below it: {each}.")
     if len(ran) < len(real):
         told.append(f"Not run: {', '.join(real[real['run'] != 'yes']['device'])}.")
     reached = int((asked["held_out"] <= asked["asked"]).sum())
