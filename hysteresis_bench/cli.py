@@ -8,7 +8,7 @@ from typing import Any
 import click
 
 from hysteresis_bench.commands.compare import compare
-from hysteresis_bench.commands.control import control
+from hysteresis_bench.commands.control.control import control
 from hysteresis_bench.commands.data.check import check
 from hysteresis_bench.commands.data.export import export
 from hysteresis_bench.commands.data.new_study import new_study

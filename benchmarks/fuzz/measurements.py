@@ -9,8 +9,8 @@ import numpy as np
 from hypothesis import strategies as st
 
 from benchmarks.fuzz.target import Target, Wrong, scratch
-from hysteresis_bench.control.trajectories.trajectory import read_trajectory
 from hysteresis_bench.data.data_files import read_data
+from hysteresis_bench.data.trajectory_file import read_trajectory
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import Dataset
 

@@ -21,7 +21,7 @@ from hysteresis_bench.control.trajectories.sweep import sweep
 from hysteresis_bench.control.trajectories.trajectory import follow
 from hysteresis_bench.fit.model_file import Estimate, FittedModel, write_model
 from hysteresis_bench.fit.preparation import Preparation
-from hysteresis_bench.signals import Signal
+from hysteresis_bench.signals import Dataset, Record, Signal
 
 RATE = 2000.0
 TIME = np.arange(1600) / RATE
@@ -175,18 +175,17 @@ def test_why_no_sine_is_reached_is_told_once():
     assert str(told.value).count("does not reach") == 1
 
 
-def test_what_the_fit_has_not_seen_is_told(tmp_path):
+def test_what_the_fit_has_not_seen_is_told():
     model = fitted("bouc-wen", BOUC_WEN)
     seen = replace(model, data={**model.data, "excited": {"frequency": [1.0, 4.0], "amplitude": [1.0, 3.0]}})
     table = sweep(seen, (0.1, 1.0, 4.5, 10.0), (0.2, 1.9))
     small, large = table["beyond"][:4], table["beyond"][4:]
     assert list(small) == ["slower, smaller", "smaller", "smaller", "faster, smaller"]
     assert list(large) == ["slower", "", "", "faster"]
-    path = tmp_path / "wanted.csv"
-    pd.DataFrame({"time": TIME, "output": WANTED}).to_csv(path, index=False)
-    notes = " ".join(follow(seen, forward_of(seen), path, np.inf).notes)
+    wanted = Dataset((Record(TIME, WANTED, WANTED, units=seen.units),))
+    notes = " ".join(follow(seen, forward_of(seen), wanted).notes)
     assert "The input turns faster than the fitted ones: 7.9" in notes
-    assert "turns" not in " ".join(follow(model, forward_of(model), path, np.inf).notes)
+    assert "turns" not in " ".join(follow(model, forward_of(model), wanted).notes)
 
 
 def test_the_command_sweeps(tmp_path, monkeypatch):

@@ -1,27 +1,20 @@
-"""The input that makes a fitted model follow a user's own trajectory, read from a CSV."""
+"""The input that makes a fitted model follow a user's own trajectory."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.control.compensation import Forward
 from hysteresis_bench.control.trajectories.driven import Driven, drive
-from hysteresis_bench.data.data_files import read_columns, time_faults
-from hysteresis_bench.data.layout import AS_THEY_SAY, Layout
-from hysteresis_bench.data.units import frequency_in, in_units
-from hysteresis_bench.errors import UserError
+from hysteresis_bench.data.units import frequency_in
 from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.settling import is_closed
 from hysteresis_bench.fit.unseen.excited import FREQUENCY, excited, unlike
 from hysteresis_bench.signals import Dataset, Record
-
-REFERENCE = "reference"
-"""What the column of the wanted output may be called, beside `output`."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,35 +44,13 @@ class Followed:
         return float(np.max(error, initial=0.0)) / (float(np.ptp(self.output)) or 1.0)
 
 
-def read_trajectory(path: Path, units: Mapping[str, str], layout: Layout = AS_THEY_SAY) -> Dataset:
-    """Time and wanted output of a CSV with the columns `time` and `output` (or `reference`), in a model's units.
+def follow(fitted: FittedModel, forward: Forward, trajectory: Dataset, *, limit: float = np.inf) -> Followed:
+    """The input for a trajectory, prepared as the fit's records were.
 
-    The wanted output stands in a record's `input` as in its `output`, for what asks whether a loop is closed.
-    layout : what the file does not say itself
-    Raises UserError naming file, row and column.
+    trajectory : one record, of which the wanted output stands in `input` as in `output`, in the model's units
+    limit : of the input, to either side
+    Raises ValueError where no input is found.
     """
-    timed = ["time"] if layout.rate is None else []
-    other = layout.output is None and REFERENCE in read_columns(path, timed, layout).numbers
-    name = REFERENCE if other else "output"
-    columns = read_columns(path, [*timed, name], layout)
-    time, wanted = columns.numbers["time"], columns.numbers[name]
-    if faults := time_faults(time, columns.lines) if time.size > 1 else ["needs at least 2 samples."]:
-        raise UserError(str(path), faults)
-    stated = {"time": columns.units.get("time"), "output": columns.units.get(name)}
-    record = Record(time, wanted, wanted, path.stem, {key: unit for key, unit in stated.items() if unit is not None})
-    known = in_units(Dataset((record,)), {key: units[key] for key in stated}, str(path), "the model's")
-    return known.map(lambda one: Record(one.time, one.output, one.output, one.name, units))
-
-
-def follow(
-    fitted: FittedModel, forward: Forward, path: Path, limit: float, *, layout: Layout = AS_THEY_SAY
-) -> Followed:
-    """The input for the trajectory of a CSV, prepared as the fit's records were.
-
-    limit : of the input, to either side;  layout : what the file does not say itself
-    Raises UserError naming file, row and column; ValueError where no input is found.
-    """
-    trajectory = read_trajectory(path, fitted.units, layout)
     (record,) = trajectory.records
     passes = fitted.preparation.settle if is_closed(record) else 0
     settled = record.settled(passes) if passes else record

@@ -1,0 +1,1 @@
+"""What `control` makes of a fitted model: an input, errors to expect, controllers compared."""
