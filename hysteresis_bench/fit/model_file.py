@@ -29,8 +29,7 @@ from hysteresis_bench.fit.unseen.interval import Interval, interval_of
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import UNITLESS, Dataset, Record
 
-SCHEMA = 2
-READABLE = (1, 2)
+SCHEMA, READABLE = 2, (1, 2)
 """Schema 1 kept of the preparation only input_offset and flip."""
 
 
@@ -139,12 +138,11 @@ def fitted_model(
     """
     system, units = problem.system, dataset.units
     offsets = np.array([[float(o[0]) for o in system.offsets(r, values[:, None])] for r in dataset.fitted])
-    remembered = {
-        name: effect.remembered(list(offsets[:, index])) for index, (name, effect) in enumerate(system.effects)
-    }
-    error = {"fitted": accuracy(system, dataset.fitted, values).as_dict()}
-    if dataset.held_out:
-        error["held_out"] = accuracy(system, dataset.held_out, values).as_dict()
+    own = zip(system.effects, offsets.T, strict=True)
+    remembered = {name: effect.remembered(list(each)) for (name, effect), each in own}
+    asked = {"fitted": dataset.fitted, "held_out": dataset.held_out}
+    error = {role: accuracy(system, records, values).as_dict() for role, records in asked.items() if records}
+    known = [float(error) if np.isfinite(error) else None for error in errors]
     return FittedModel(
         model,
         settings,
@@ -152,16 +150,13 @@ def fitted_model(
         {name: asdict(effect) for name, effect in remembered.items()},  # type: ignore[call-overload]
         units,
         {
-            parameter.name: Estimate(
-                float(value), float(error) if np.isfinite(error) else None, parameter.unit_in(units)
-            )
-            for parameter, value, error in zip(problem.space.parameters, values, errors, strict=True)
+            parameter.name: Estimate(float(value), error, parameter.unit_in(units))
+            for parameter, value, error in zip(problem.space.parameters, values, known, strict=True)
         },
         system.fixed,
         preparation,
         {
-            "fitted": [record.name for record in dataset.fitted],
-            "held_out": [record.name for record in dataset.held_out],
+            **{role: [record.name for record in records] for role, records in asked.items()},
             "ranges": ranges(dataset.fitted, preparation),
             "excited": excited(dataset.fitted),
             "steps": steps(dataset.fitted),
@@ -173,12 +168,30 @@ def fitted_model(
 
 def write_model(path: Path, fitted: FittedModel) -> None:
     """Write model.json."""
+    path.write_text(json.dumps(content_of(fitted), indent=1, allow_nan=False) + "\n", encoding="utf-8")
+
+
+def read_model(path: Path) -> FittedModel:
+    """Read model.json. Raises UserError naming what is missing or wrong."""
+    try:
+        if path.exists() and not path.is_file():
+            raise UserError(str(path), "cannot be read: it is no file.")
+        content = json.loads(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise UserError(str(path), f"cannot be read: {error.strerror}.") from None
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise UserError(str(path), f"is not valid JSON, so no model.json of `fit` or `diagnose`: {error}.") from None
+    return model_of(content, str(path))
+
+
+def content_of(fitted: FittedModel) -> dict[str, Any]:
+    """What model.json holds."""
     own: dict[str, Any] = {}
     of_effects: dict[str, dict[str, Any]] = {name: {} for name in fitted.effects}
     for name, estimate in fitted.parameters.items():
         effect, _, parameter = name.rpartition(".")
         (of_effects[effect] if effect else own)[parameter] = asdict(estimate)
-    content = {
+    return {
         "schema": SCHEMA,
         "model": fitted.model,
         "settings": dict(fitted.settings),
@@ -195,39 +208,26 @@ def write_model(path: Path, fitted: FittedModel) -> None:
         "interval": fitted.interval and fitted.interval.as_dict(),
         "created_by": dict(fitted.created_by),
     }
-    path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
 
 
-def read_model(path: Path) -> FittedModel:
-    """Read model.json. Raises UserError naming what is missing or wrong."""
-    try:
-        if path.exists() and not path.is_file():
-            raise UserError(str(path), "cannot be read: it is no file.")
-        content = json.loads(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise UserError(str(path), f"cannot be read: {error.strerror}.") from None
-    except (json.JSONDecodeError, UnicodeDecodeError) as error:
-        raise UserError(str(path), f"is not valid JSON, so no model.json of `fit` or `diagnose`: {error}.") from None
+def model_of(content: Any, where: str) -> FittedModel:
+    """Of what model.json holds. Raises UserError naming what is missing or wrong.  where : it stands, for errors"""
     schema = content.get("schema") if isinstance(content, dict) else None
     if type(schema) is not int or schema not in READABLE:
-        known = " or ".join(map(str, READABLE))
-        raise UserError(str(path), f"is not a fitted model of schema {known}: its schema is {schema!r}.")
+        raise UserError(where, f"is not a fitted model of schema {READABLE[0]} or {SCHEMA}: its schema is {schema!r}.")
     try:
         fitted = _fitted(content)
-        parameters = fitted.system.parameters
+        parameters, estimates = fitted.system.parameters, fitted.parameters
     except (KeyError, TypeError, OverflowError) as error:
-        raise UserError(str(path), f"is not a fitted model of schema {schema}: {error} is missing or wrong.") from None
+        raise UserError(where, f"is not a fitted model of schema {schema}: {error} is missing or wrong.") from None
     except ValueError as error:
-        raise UserError(str(path), f"{error}") from None
-    estimates = fitted.parameters
+        raise UserError(where, f"{error}") from None
     faults = [f'parameter "{p.name}" is missing.' for p in parameters if p.name not in estimates]
     faults += [f'the unit of "{name}" is missing.' for name in MEASURED if name not in fitted.units]
     units = {**UNITLESS, **fitted.units}
     faults += [r for p in parameters if p.name in estimates and (r := _refused(p, estimates[p.name], units))]
-    faults += fitted.system.refusals()
-    faults += _unknown(fitted)
-    if faults:
-        raise UserError(str(path), faults)
+    if faults := [*faults, *fitted.system.refusals(), *_unknown(fitted)]:
+        raise UserError(where, faults)
     return fitted
 
 
