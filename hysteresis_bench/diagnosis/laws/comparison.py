@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,7 +37,7 @@ from hysteresis_bench.fit.unseen.likeness import judged
 from hysteresis_bench.fit.unseen.whole import last_part, open_way
 from hysteresis_bench.kernels.resources import economical
 from hysteresis_bench.kernels.root_mean_square import rms
-from hysteresis_bench.signals import Dataset
+from hysteresis_bench.signals import Dataset, Record
 
 BASELINE = "cubic polynomial"
 REACHABLE = 2.0
@@ -108,43 +108,55 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     with Workers[Law](passing, options.processes, options.on_step, options.kept) as workers:
         fitted = workers.map([("law", name) for name in names if name not in reasons])
         wanting = _wanting(fitted, floor) if effects_follow else []
-        moved = workers.map([("with_dynamics", law) for law in wanting])
-        if len(thin.records) > 1:
-            moved = _surrounded(workers, wanting, moved, floor)
-        # of a lone record what is around a wrong law follows its fault: a friction damper comes to 17 times the noise
-        # so, a piezo stack to 1.5
-        elif _least(moved) > WRONG * floor:
-            moved = []
+        around = _around(workers, wanting, floor, lone=len(thin.records) == 1)
     struck = [Law(name, reason) for name, reason in reasons.items()]
     laws = sorted([*fitted, *struck], key=lambda law: law.rmse)
     plain = both(baseline_errors(thin.records, out.blocks), baseline_ahead(thin.records, last_part(thin.records)))
-    chosen, words = choose(laws, plain, out.blocks, like=out.like)
-    left = next((law.rmse / floor for law in laws if law.model == chosen), 0.0)
-    if left > WRONG:
-        words += (
-            f" It leaves {rounded(left)} times the noise: the law cannot follow these data, or an effect is missing."
-        )
-        words += f" {why}" if (why := why_not(chosen, found, left * floor)) else ""
-    if chosen and open_way(thin.records):
-        words += f" {OPEN}"
-    if not chosen and found.of("sense").mixed:
-        words += f" Of these records {found.of('sense').words}"
-    better = {law.model: law for law in moved}
+    chosen, why = choose(laws, plain, out.blocks, like=out.like)
+    better = {law.model: law for law in around}
     rows = [*(_row(law, better.get(law.model)) for law in laws), _baseline_row(plain, seen)]
     table = pd.DataFrame(rows).sort_values("unseen", kind="stable", na_position="last", ignore_index=True)
+    ranked = ranking([better.get(law.model, law) for law in laws], REACHED * floor, out.blocks, like=out.like)
+    taken = next((law for law in laws if law.model == chosen), None)
+    words = [
+        why,
+        *(_beside_noise(taken, floor, found) if taken else ()),
+        *_cautions(chosen, thin.records, found, table),
+        *(() if effects_follow else unsettled(ready.fitted, options.settle)),  # a diagnosis says so itself
+        *_better_around(chosen, ranked, around),
+    ]
     told = ((SAID,) if options.settle is None else ()) + (PASSED,) if settles else ()
+    notes = (*_notes(seen, options), *told)
+    return Comparison(table, chosen, " ".join(words), floor, dict(dataset.units), notes, found, ranked)
+
+
+def _beside_noise(law: Law, floor: float, found: Structure) -> Iterator[str]:
+    """What the law that was chosen leaves, and why, where that is far above the noise."""
+    left = law.rmse / floor
+    if left > WRONG:
+        yield f"It leaves {rounded(left)} times the noise: the law cannot follow these data, or an effect is missing."
+        if why := why_not(law.model, found, law.rmse):
+            yield why
+
+
+def _cautions(chosen: str, records: Sequence[Record], found: Structure, table: pd.DataFrame) -> Iterator[str]:
+    """Why not to believe what was chosen, or why nothing was.  records : that were fitted;  table : of a comparison"""
+    if chosen and open_way(records):
+        yield OPEN
+    if not chosen and found.of("sense").mixed:
+        yield f"Of these records {found.of('sense').words}"
     held_out = table.set_index("law")["held_out"]
     if chosen and held_out[chosen] > held_out[BASELINE]:  # False where nothing is held out
-        words += " On what was held out it does worse than the polynomial: do not believe it there."
-    if not effects_follow:  # a diagnosis says so itself
-        words = " ".join((words, *unsettled(ready.fitted, options.settle)))
-    notes = (*_notes(seen, options), *told)
-    ranked = ranking([better.get(law.model, law) for law in laws], REACHED * floor, out.blocks, like=out.like)
-    if (first := better.get(next(iter(ranked), ""))) and first.model != chosen:
-        equal = [law.model for law in moved if law is not first and law.rmse <= TIED * first.rmse]
-        words += f" With what may act around it, {first.model} predicts that to {first.rmse:.3g}"
-        words += f", and {listed(sorted(equal))} as well." if equal else "."
-    return Comparison(table, chosen, words, floor, dict(dataset.units), notes, found, ranked)
+        yield "On what was held out it does worse than the polynomial: do not believe it there."
+
+
+def _better_around(chosen: str, ranked: Sequence[str], around: Sequence[Law]) -> Iterator[str]:
+    """Which other law predicts best with what may act around it, and which do as well."""
+    first = next((law for law in around if law.model == next(iter(ranked), "")), None)
+    if first and first.model != chosen:
+        equal = [law.model for law in around if law is not first and law.rmse <= TIED * first.rmse]
+        as_well = f", and {listed(sorted(equal))} as well." if equal else "."
+        yield f"With what may act around it, {first.model} predicts that to {first.rmse:.3g}{as_well}"
 
 
 def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
@@ -152,6 +164,18 @@ def _wanting(fitted: Sequence[Law], floor: float) -> list[Law]:
     may owe their place to an effect that the others lack."""
     still = [law for law in fitted if law.found is not None and is_rate_independent(law.model)]
     return still if _least(still) > REACHED * floor else []
+
+
+def _around(workers: Workers[Law], laws: Sequence[Law], floor: float, *, lone: bool) -> list[Law]:
+    """As laws without dynamics predict with what may act around them: with dynamics, and of several records with
+    whatever it takes to come near the noise.
+
+    lone : one record was fitted. What is around a wrong law follows its fault there, so that they count near the noise
+    alone: a friction damper comes to 17 times the noise so, a piezo stack to 1.5."""
+    moved = workers.map([("with_dynamics", law) for law in laws])
+    if not lone:
+        return _surrounded(workers, laws, moved, floor)
+    return moved if _least(moved) <= WRONG * floor else []
 
 
 def _surrounded(workers: Workers[Law], laws: Sequence[Law], known: Sequence[Law], floor: float) -> list[Law]:
