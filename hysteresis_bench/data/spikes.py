@@ -15,6 +15,7 @@ from math import prod
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.white_noise import MEDIAN as MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 
 FAR = 10.0
@@ -44,9 +45,6 @@ NEAR = 12
 
 SEEN_AT = 5
 """Samples that lie far off their cubics because of one spike, at most."""
-
-MEDIAN = 0.6745
-"""Of the absolute value of a standard normal variable."""
 
 LISTED = 8
 

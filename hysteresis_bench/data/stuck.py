@@ -14,7 +14,8 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.parts import parted, parts
-from hysteresis_bench.data.spikes import FAR, MEDIAN, distances
+from hysteresis_bench.data.spikes import FAR, distances
+from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 
 REPEATED = 5
