@@ -30,6 +30,8 @@ def here(tmp_path, monkeypatch):
         ("--rig pea --voltage-limit 3", "--voltage-limit cuts the input of a --reference"),
         ("--reference wanted.csv --amplitude 2", "--amplitude is of a --sweep or a --rig"),
         ("--sweep 1 --rate 100", "--rate is of a --rig, or of a --reference"),
+        ("--sweep 1 --seed 0", "--seed is of a --rig: nothing else"),
+        ("--reference wanted.csv --open", "--open opens the page of a --rig"),
         ("--sweep 1 --output y", "say how a --reference is read; give one."),
         ("--sweep 1 --rate 100 --voltage-limit 3", "control has 2 faults"),
     ],

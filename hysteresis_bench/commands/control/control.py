@@ -29,6 +29,8 @@ FOR_ONE = "--json tells a --reference, a --sweep or a --rig, and one of them alo
 FOR_LIMIT = "--voltage-limit cuts the input of a --reference; a rig has a limit of its own, and a --sweep has none."
 FOR_AMPLITUDE = "--amplitude is of a --sweep or a --rig; a --reference goes as far as it says itself."
 FOR_RATE = "--rate is of a --rig, or of a --reference that has no column of time; a --sweep needs none."
+FOR_SEED = "--seed is of a --rig: nothing else of this command is random."
+FOR_PAGE = "--open opens the page of a --rig; a --reference and a --sweep make none."
 FOR_COLUMNS = "--time, --output, --delimiter, --decimal and --sheet say how a --reference is read; give one."
 
 
@@ -53,7 +55,7 @@ def _frequencies(context: click.Context, option: click.Parameter, text: str | No
 @click.option("--voltage-limit", type=above_0, callback=finite, help="Cut the input of --reference here.")
 @click.option("--out", type=click.Path(path_type=Path, file_okay=False), help=OUT_HELP)
 @plot_option
-@click.option("--seed", type=int, default=0, show_default=True, help="Of all random numbers.")
+@click.option("--seed", type=int, help="Of all random numbers on the rig; default: 0.")
 @json_option
 @open_option
 @force_option
@@ -68,7 +70,7 @@ def control(
     voltage_limit: float | None,
     out: Path | None,
     plot: Path | None,
-    seed: int,
+    seed: int | None,
     as_json: bool,
     open_page: bool,
     force: bool,
@@ -93,6 +95,8 @@ def control(
         FOR_LIMIT: (voltage_limit is not None, reference),
         FOR_AMPLITUDE: (amplitude is not None, rig or sweep),
         FOR_RATE: (rate is not None, rig or reference),
+        FOR_SEED: (seed is not None, rig),
+        FOR_PAGE: (open_page, rig),
         FOR_COLUMNS: (layout != AS_THEY_SAY, reference),
     }
     faults = [told for told, (given, heeded) in asked.items() if given and not heeded]
@@ -112,4 +116,4 @@ def control(
     if rig is not None:
         from hysteresis_bench.commands.control.rig import compare_on_rig
 
-        compare_on_rig(use, rig, rate=rate, amplitude=amplitude, seed=seed, open_page=open_page)
+        compare_on_rig(use, rig, rate=rate, amplitude=amplitude, seed=seed or 0, open_page=open_page)
