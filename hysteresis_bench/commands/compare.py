@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hysteresis_bench.commands.data.loading import loaded
 from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
 from hysteresis_bench.commands.stopping import told_when_stopped
@@ -54,18 +55,20 @@ def compare(
     A run that was stopped goes on where it was when it is called again.
     """
     from dataclasses import replace
+    from functools import partial
 
     from hysteresis_bench import compare as compare_laws
-    from hysteresis_bench import load
     from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
+    from hysteresis_bench.diagnosis.laws.comparison import law_faults
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.report.laws.page import FILE, FILES, draw_comparison, print_comparison, write_comparison
 
     folder = out or Path(f"{data[0].stem}-laws")
     check_folder(folder, FILES, FILE, data, force)
     check_plot(plot, data, force)
-    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console(aside=as_json)
+    others = partial(law_faults, models, effects)
+    dataset, console = loaded("compare", data, held_out, layout, others=others), plain_console(aside=as_json)
     if not as_json:
         say_understood(console, dataset)
     say_notes(console, dataset.notes)

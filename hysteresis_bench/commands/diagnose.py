@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from hysteresis_bench.commands.data.loading import loaded, model_faults
 from hysteresis_bench.commands.data.options import data_options, models_option, preparation_options, say_understood
 from hysteresis_bench.commands.data.parameters import model_options
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
@@ -81,10 +82,10 @@ def diagnose(
     from functools import partial
 
     from hysteresis_bench import diagnose as find
-    from hysteresis_bench import load
     from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
     from hysteresis_bench.diagnosis.findings.diagnosis_file import DIAGNOSIS, MODEL, RESPONSES, write_diagnosis
+    from hysteresis_bench.diagnosis.laws.comparison import law_faults
     from hysteresis_bench.diagnosis.question import DiagnosisOptions
     from hysteresis_bench.errors import UserError
     from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
@@ -96,7 +97,8 @@ def diagnose(
     check_folder(folder, (DIAGNOSIS, MODEL, RESPONSES, FILE), FILE, data, force)
     check_plot(plot, data, force)
     bench = _bench(measure, seed, prepared) if measure else None
-    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
+    others = partial(model_faults, model, effects, asked) if model else partial(law_faults, models, effects)
+    dataset, console = loaded("diagnose", data, held_out, layout, others=others), plain_console()
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from hysteresis_bench.commands.data.loading import loaded, model_faults
 from hysteresis_bench.commands.data.options import data_options, preparation_options, say_understood
 from hysteresis_bench.commands.data.parameters import model_options
 from hysteresis_bench.commands.outputs import check_folder, check_plot, force_option, plot_option
@@ -69,7 +71,7 @@ def fit(
             "name a law with --model; `list models` shows them, `compare` ranks them on your data, and `diagnose` "
             "finds one without --model.",
         )
-    from hysteresis_bench import FitOptions, load
+    from hysteresis_bench import FitOptions
     from hysteresis_bench import fit as fit_model
     from hysteresis_bench.commands.data.journal import journal
     from hysteresis_bench.commands.terminal.steps import steps_told
@@ -80,7 +82,8 @@ def fit(
     folder = out or Path(f"{data[0].stem}-fit")
     check_folder(folder, FILES, FILE, data, force)
     check_plot(plot, data, force)
-    dataset, console = load(*data, held_out=held_out, layout=layout), plain_console()
+    others = partial(model_faults, model, effects, asked, optimizer)
+    dataset, console = loaded("fit", data, held_out, layout, others=others), plain_console()
     if not as_json:
         say_understood(console, dataset)
         say_notes(console, dataset.notes)

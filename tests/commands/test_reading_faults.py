@@ -36,6 +36,24 @@ def test_a_preparation_by_no_number_is_refused(here, option, value):
         assert f"Invalid value for '{option}': {value} is not a finite number." in said
 
 
+@pytest.mark.parametrize(
+    ("asked", "sentences"),
+    [
+        ("fit --model dahl --set plays=3", ['no setting "plays"']),
+        ("fit --model dahl --fix z=1 --bounds y=0:1", ['fixed: no parameter "z"', 'bounds: no parameter "y"']),
+        ("fit --model dahl --effect bais --optimizer psoo", ['no effect "bais"', 'no optimizer "psoo"']),
+        ("diagnose --model dahl --set plays=3", ['no setting "plays"']),
+        ("diagnose --models dahll --effect bais", ['no model "dahll"', 'no effect "bais"']),
+        ("compare --models dahll", ['no model "dahll"']),
+    ],
+)
+def test_a_record_that_is_not_there_hides_no_other_fault(here, asked, sentences):
+    command, *options = asked.split()
+    said = told(command, "loop.csv", *options, "--held-out", "foo")
+    assert f"{command} has {1 + len(sentences)} faults: held out: no record 'foo'; there are: loop." in said
+    assert all(sentence in said for sentence in sentences)
+
+
 @pytest.mark.parametrize("value", ["-1", "0", "nan", "inf", "1e9"])
 def test_a_test_of_a_plugin_takes_a_finite_time(value):
     said = told("check-plugin", "bias", "--timeout", value)

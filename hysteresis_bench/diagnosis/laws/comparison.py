@@ -201,13 +201,18 @@ def _least(laws: Sequence[Law]) -> float:
     return min((law.rmse for law in laws), default=0.0)
 
 
-def _prepared(dataset: Dataset, question: Question, purpose: str) -> Dataset:
-    """As the laws see it.  purpose : the command that asks"""
-    models, known, settle = question.options.laws, registry.names("models"), question.options.settle
+def law_faults(models: Sequence[str], effects: Sequence[str]) -> list[str]:
+    """A sentence on every fault of the names of laws that are compared, and of the effects around them."""
+    known = registry.names("models")
     faults = [f'no model "{name}". {nearest(name, known)}' for name in models if name not in known]
     faults += [f'the model "{name}" is named twice.' for name in {*models} if list(models).count(name) > 1]
-    faults += around_faults("", question.effects) + question.preparation.faults(dataset.records)
-    faults += open_loops(dataset.records) if settle and not faults else []
+    return faults + around_faults("", effects)
+
+
+def _prepared(dataset: Dataset, question: Question, purpose: str) -> Dataset:
+    """As the laws see it.  purpose : the command that asks"""
+    faults = law_faults(question.options.laws, question.effects) + question.preparation.faults(dataset.records)
+    faults += open_loops(dataset.records) if question.options.settle and not faults else []
     seen = dataset if faults else without_faults(dataset).map(question.preparation)
     if faults := faults or record_faults(seen.fitted, purpose):
         raise UserError(purpose, faults)
