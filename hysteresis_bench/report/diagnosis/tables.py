@@ -115,9 +115,7 @@ def added_table(model: Mapping[str, Any], effects: Sequence[str]) -> Table | Non
     for effect in model["effects"]:
         if effect["effect"] in effects:
             found += [(f"{effect['effect']}.{name}", estimate) for name, estimate in effect["parameters"].items()]
-    rows = [
-        estimate_cells(name, each["value"], each["standard_error"], unit=each["unit"], digits=5) for name, each in found
-    ]
+    rows = [estimate_cells(name, each["value"], each["standard_error"], unit=each["unit"]) for name, each in found]
     note = f"Of the final fit, to all samples. {ESTIMATE_NOTE}"
     if unsure := [name for name, each in found if _unsure(each["value"], each["standard_error"])]:
         note += f" The effect is needed, but these data do not tell the value of {listed(unsure)}: it is no result."

@@ -144,11 +144,12 @@ Block = str | Table | Paragraph | Heading | Bullets | Terms | Figures | Details
 
 
 def estimate_cells(
-    name: str, value: float, error: float | None, *, unit: str | None, digits: int = 6
+    name: str, value: float, error: float | None, *, unit: str | None, digits: int = 4
 ) -> list[str | Cell]:
     """The cells of a fitted parameter: name, value, standard error, that as a share of the value, unit.
 
     error : None or infinite where the data cannot tell
+    digits : significant ones of the value; model.json holds all
     """
     share = abs(error / value) if error is not None and value else None
     unsure = share is not None and share > 1.0
