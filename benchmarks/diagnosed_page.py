@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pandas as pd
+from measured_page import noise_cell
 
 from hysteresis_bench.diagnosis.search.fallback import WORSE
 from hysteresis_bench.report.shared.blocks import Bullets, Cell, Table
@@ -76,7 +77,7 @@ def _table(rows: pd.DataFrame, plain: pd.Series, asked: pd.Series) -> Table:
                 number(row.constant, 2) if row.constant > NEXT_TO_NOTHING * row.after else "0",
                 number(cubic, 3),
                 NONE if pd.isna(wanted) else number(wanted, 3),
-                number(row.floor, 2),
+                noise_cell(row.floor, row.after),
             ]
         )
     header = ["Device", "Law", "Named", "Before", "After", "Constant", "Polynomial", "Asked", "Noise"]

@@ -97,6 +97,11 @@ def test_the_page_counts_what_was_measured_and_leads_to_its_parts(tmp_path, meas
     assert "Branches explain 4.13\u202f% (p &lt; 0.001)." in page
 
 
+def test_a_noise_that_cannot_be_is_marked_where_no_law_was_given(measurements):
+    rows = cells(measurements.diagnosed_page.section(FOUND, LAWS).blocks[1])
+    assert [row[-1] for row in rows.values()] == ["0.01", "0.15 (too high)"]
+
+
 def test_what_stands_in_for_the_law_and_what_made_it_worse_is_seen(measurements):
     (row,) = measurements._summary([CASE], STEPS).cells
     assert [cell.text for cell in row[2:4]] == ["none", "input-curve and bias"]
