@@ -81,6 +81,11 @@ class Ceiling:
         return not self.reached and self.advantage > CLEAR and gain > SHARE * excess
 
     @property
+    def finds_nothing(self) -> bool:
+        """Does the black box, judged by enough folds, find nothing of what the named model leaves above the noise?"""
+        return not self.reached and not self.better and self.folds >= FEWEST
+
+    @property
     def words(self) -> str:
         unit = "" if self.unit == "1" else f" {self.unit}"
         said = (

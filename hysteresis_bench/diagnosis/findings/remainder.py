@@ -74,6 +74,18 @@ class Remainder:
         """Is nothing left but noise, though louder than most samples are from one to the next?"""
         return self.slow or self.heavy
 
+    def told_as_noise(self, times: float) -> str:
+        """A sentence;  times : what is left over the noise from sample to sample"""
+        correlated, kind = (
+            ("is correlated, but", "slow noise, or a cause beside the input that these data do not show")
+            if self.slow
+            else ("is not correlated,", "noise of heavy tails, where few samples are far off")
+        )
+        return (
+            f"What is left is {rounded(times)} times the noise from sample to sample and {correlated} depends on "
+            f"nothing that was measured here, and no term describes it: {kind}."
+        )
+
     def of_a_cause(self) -> Remainder:
         """After something predicted it where it was not fitted, which nothing can of noise."""
         return replace(self, matters=self.matters or self.noise, slow=False, heavy=False)

@@ -23,6 +23,8 @@ from hysteresis_bench.fit.checks.edges import edges_told
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.unseen.between_samples import TELLING, between_samples
 
+CAUSES = "slow noise, noise of the input, a cause that was not measured, or the law's own fault"
+
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
@@ -175,6 +177,8 @@ def _of_the_law(outcome: Outcome, unit: str) -> Iterator[str]:
     elif outcome.reaches:
         helping = "these effects" if outcome.named else "what helps"
         yield f"{outcome.model} alone does not follow the data; with {helping} it does."
+    elif outcome.found.ceiling.finds_nothing:
+        yield f"No law here reaches the noise, and no black box does clearly better: what is left may be {CAUSES}."
     else:
         yield "The law itself does not follow the data, and no other one here does clearly better."
     if agreed and (names := [name for name in outcome.named if name != registry.DESCRIPTION]):
@@ -245,10 +249,13 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     elif not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
-        said.append(
-            f"The final system still leaves {_times(outcome)}: the model's own law does not follow these data"
-            f"{', and what is named may stand in for that' if outcome.doubted else ''}."
+        blamed = (
+            f"of which a black box finds nothing in the input's past: {CAUSES}"
+            if found.ceiling.finds_nothing
+            else "and the model's own law does not follow these data"
         )
+        may = ". What is named may stand in for that" if outcome.doubted and outcome.named else ""
+        said.append(f"The final system still leaves {_times(outcome)}, {blamed}{may}.")
     fitted, held_out = outcome.leaves
     if after.between > TELLING * max(floor, after.fitted.rmse):
         said.append(
@@ -265,15 +272,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     elif outcome.doubt.carrying:
         said.append("Ask again without a model: then the law is looked for among all that are known here.")
     if outcome.left.noise and not outcome.cause:
-        correlated, kind = (
-            ("is correlated, but", "slow noise, or a cause beside the input that these data do not show")
-            if outcome.left.slow
-            else ("is not correlated,", "noise of heavy tails, where few samples are far off")
-        )
-        said.append(
-            f"What is left is {rounded(after.fitted.rmse / floor)} times the noise from sample to sample and "
-            f"{correlated} depends on nothing that was measured here, and no term describes it: {kind}."
-        )
+        said.append(outcome.left.told_as_noise(after.fitted.rmse / floor))
     steps = between_samples(after.problem.system, records, after.values)
     if steps > TELLING * floor:
         said.append(

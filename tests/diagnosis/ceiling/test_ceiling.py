@@ -137,6 +137,7 @@ def test_better_is_what_is_clear_and_matters(named, black_box, advantage, said):
     assert f"{named:.3g} um" in found.words
     assert "repeats differ by 1.5" in found.words
     assert found.as_dict()["words"] == found.words
+    assert found.finds_nothing == ("does not do clearly better" in found.words)
 
 
 def test_a_noise_that_was_put_too_high_hides_nothing():
@@ -149,3 +150,4 @@ def test_a_noise_that_was_put_too_high_hides_nothing():
 def test_of_two_excitations_little_is_said():
     found = Ceiling(18.0, 17.0, 17.0, 1.0, "past extrema", "whole records", 2, "um", 1.0, 1.0, None)
     assert "says little" in found.words
+    assert not found.finds_nothing

@@ -6,6 +6,7 @@ from types import SimpleNamespace as Of
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement
 from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
+from hysteresis_bench.diagnosis.findings.remainder import Remainder
 from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warnings
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 
@@ -23,12 +24,20 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
         before=bare,
         after=stage,
         adopted=adopted,
-        found=Of(follows=True, evidence=evidence, final=final, full=full, given_up=more.get("given_up")),
+        found=Of(
+            follows=True,
+            evidence=evidence,
+            final=final,
+            full=full,
+            given_up=more.get("given_up"),
+            ceiling=Of(finds_nothing=more.get("finds_nothing", False)),
+        ),
         ties=(),
-        left=Of(
+        left=Remainder(
+            equation=None,
             matters=not slow and rmse > 0.11,
             slow=slow,
-            noise=slow,
+            heavy=False,
             louder=(held_out or 0.0) > 1.25 * max(rmse, 0.1),
             shape=more.get("shape", ""),
         ),
@@ -69,7 +78,7 @@ def test_free_forms_far_from_the_noise_stand_in_for_the_law_and_what_is_beside_t
     assert beside.named == ("creep",)
     assert headline(beside).startswith("The model may lack creep: ")
     assert headline(beside).endswith("lags-before may stand in for the law.")
-    assert "what is named may stand in for that" in " ".join(warnings(beside))
+    assert "What is named may stand in for that." in " ".join(warnings(beside))
     assert headline(alone).startswith("No effect is named, as what helps may be the law's own: ")
 
 
@@ -85,6 +94,16 @@ def test_a_law_that_comes_down_to_the_noise_is_not_said_to_fail():
     far, near = (" ".join(warnings(outcome_of(("input-lag",), needs, rmse=rmse))) for rmse in (0.3, 0.1))
     assert "The final system still leaves 3 times the noise" in far
     assert "still leaves" not in near
+
+
+def test_what_no_black_box_finds_either_is_not_blamed_on_the_law_alone():
+    """As where a zero walks at random, or the input is measured with noise."""
+    needs = {"dahl": ("input-lag",), "lugre": ()}
+    silent = outcome_of(("input-lag",), needs, finds_nothing=True)
+    causes = "slow noise, noise of the input, a cause that was not measured, or the law's own fault"
+    assert f"no black box does clearly better: what is left may be {causes}." in headline(silent)
+    assert f"a black box finds nothing in the input's past: {causes}." in " ".join(warnings(silent))
+    assert "does not follow" not in headline(silent) + " ".join(warnings(silent))
 
 
 def test_errors_on_records_left_out_are_told_as_such_with_their_unit():
