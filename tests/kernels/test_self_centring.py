@@ -8,19 +8,22 @@ from hysteresis_bench.kernels.self_centring import self_centring
 
 def forces(u, z, parameters):
     """F, from the power that is below 1."""
-    centre, bend, m, up, down, corner, strength = parameters
+    centre, bend, m, up, down, corner, strength, loss, q = parameters
     way = u - centre
     size = np.abs(way / bend)
     power = np.minimum(size, 1.0 / np.maximum(size, 1e-300)) ** m
     bent = np.sign(way) * np.minimum(size, 1.0) / (1.0 + power) ** (1.0 / m)
+    above, below = (np.maximum.accumulate(np.maximum(side * way / bend, 0.0)) for side in (1.0, -1.0))
+    corner = corner - loss * np.where(way >= 0.0, above, below) ** q
     return up * np.maximum(way, 0.0) + down * np.minimum(way, 0.0) + corner * bent + strength * z
 
 
 def swarm_at_the_corners(rng, swarm):
-    """centre, bend, m, up, down, corner and strength at the edges of a box and inside it."""
+    """centre, bend, m, up, down, corner, strength, loss and q at the edges of a box and inside it."""
     bend, m = 2e-3 * 1e3 ** rng.choice([0.0, 0.5, 1.0], swarm), rng.choice([0.5, 3.0, 20.0], swarm)
     centre = rng.choice([-0.2, 0.0, 0.1], swarm)
-    return np.stack([centre, bend, m, *rng.choice([-5.0, 0.0, 1.0, 5.0], (3, swarm)), rng.choice([0.0, 5.0], swarm)])
+    forces, strengths = rng.choice([-5.0, 0.0, 1.0, 5.0], (3, swarm)), rng.choice([0.0, 5.0], (2, swarm))
+    return np.stack([centre, bend, m, *forces, *strengths, rng.choice([0.1, 1.0, 3.0], swarm)])
 
 
 @pytest.mark.parametrize("swarm", [1, 8, 19])

@@ -26,8 +26,8 @@ TRUTHS = (
     (FlagShaped(), {"u_y": 0.2, "beta": 0.6, "m": 6.0, "centre": 0.02}, {"up": 1.0, "down": 0.8, "slope": 0.1}),
     (
         SelfCentring(),
-        {"u_r": 0.2, "m": 3.0, "centre": 0.02, "u_y": 0.1, "i": 1.0},
-        {"up": 0.4, "down": 0.3, "F_r": 1.5, "F_y": 0.3},
+        {"u_r": 0.2, "m": 3.0, "centre": 0.02, "u_y": 0.1, "i": 1.0, "q": 0.6},
+        {"up": 0.4, "down": 0.3, "F_r": 1.5, "F_y": 0.3, "loss": 0.2},
     ),
 )
 
@@ -45,10 +45,23 @@ def test_they_take_energy_from_a_closed_path(law, known, linear):
 
 def test_a_rocking_wall_comes_back_to_its_centre():
     law, known, linear = TRUTHS[-1]
-    one = record(law, waves(), **known, **{**linear, "F_y": 0.0})
-    rest = record(law, np.full(3, 0.02), **known, **{**linear, "F_y": 0.0})
+    linear = {**linear, "F_y": 0.0, "loss": 0.0}
+    one = record(law, waves(), **known, **linear)
+    rest = record(law, np.full(3, 0.02), **known, **linear)
     np.testing.assert_allclose(rest.output, 0.0, atol=1e-15)
     large = np.abs(one.input - 0.02) > 5 * 0.2
     side = np.where(one.input > 0.02, 0.4, 0.3)
     straight = side * (one.input - 0.02) + 1.5 * np.sign(one.input - 0.02)
     np.testing.assert_allclose(one.output[large], straight[large], rtol=5e-3)
+
+
+def test_a_rocking_wall_loses_force_on_the_side_that_it_went_to():
+    law, known, linear = TRUTHS[-1]
+    there, back = np.linspace(0.02, 1.02, 50), np.linspace(-0.98, 1.02, 50)
+    one = record(law, np.concatenate([there, back[::-1], back]), **known, **{**linear, "F_y": 0.0})
+    left = 1.5 - 0.2 * 5.0**0.6
+    held = left * np.array([1.0, -1.0, 1.0]) * 5.0 / (1.0 + 5.0**3) ** (1.0 / 3.0) + np.array([0.4, -0.3, 0.4])
+    np.testing.assert_allclose(one.output[[49, 99, 149]], held, rtol=1e-12)
+    first, again = np.interp(0.52, there, one.output[:50]), np.interp(0.52, back, one.output[100:])
+    np.testing.assert_allclose(again, left * 2.5 / (1.0 + 2.5**3) ** (1.0 / 3.0) + 0.4 * 0.5, rtol=1e-3)
+    assert again < first - 0.05

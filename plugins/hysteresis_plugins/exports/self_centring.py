@@ -1,4 +1,5 @@
-"""Self-centring, one sample on; state: started, u, z, place; constants: the model's parameters in its order."""
+"""Self-centring, one sample on; state: started, u, z, place, M of either side;
+constants: the model's parameters in its order."""
 
 from __future__ import annotations
 
@@ -18,11 +19,13 @@ def law(s: Array, p: Array, t: float, u: float) -> float:
     way = u - p[2]
     small = min(abs(way) / p[0], 1.0)
     large = max(abs(way) / p[0], 1.0)
+    s[4] = max(s[4], way / p[0])
+    s[5] = max(s[5], -way / p[0])
     bent = small / (1.0 + (small / large) ** p[1]) ** (1.0 / p[1])
     if way < 0.0:
-        return p[6] * way - p[7] * bent + p[8] * s[2]
-    return p[5] * way + p[7] * bent + p[8] * s[2]
+        return p[6] * way - (p[7] - p[9] * s[5] ** p[10]) * bent + p[8] * s[2]
+    return p[5] * way + (p[7] - p[9] * s[4] ** p[10]) * bent + p[8] * s[2]
 
 
 def part(model: Any, p: Mapping[str, float], timed: bool) -> Part:
-    return Part(tuple(p[parameter.name] for parameter in model.parameters), state=4)
+    return Part(tuple(p[parameter.name] for parameter in model.parameters), state=6)
