@@ -27,7 +27,15 @@ MAGNETIC = ("preisach-hats", "preisach", "energy-based", "jiles-atherton-clamped
 REVERSAL = ("preisach-hats", "preisach", "energy-based")
 SWITCHING = ("preisach-hats", "preisach", "ferroelectric", "prandtl-ishlinskii", "prandtl-ishlinskii-modified")
 FRICTION = ("maxwell-slip", "dahl", "lugre", "bouc-wen", "preisach")
-YIELDING = ("bouc-wen-generalized", "preisach-hats", "chaboche", "folz-filiatrault", "pinching", "self-centring")
+YIELDING = (
+    "bouc-wen-generalized",
+    "preisach-hats",
+    "chaboche",
+    "chaboche-bowed",
+    "folz-filiatrault",
+    "pinching",
+    "self-centring",
+)
 STRUCTURE = (*FRICTION, *YIELDING)
 GENERAL = (*SWITCHING, "energy-based", "bouc-wen", "bouc-wen-generalized", "dahl", "maxwell-slip")
 """Laws that are compared on a kind of device: those of its own field, and the general ones."""

@@ -13,7 +13,7 @@ from hysteresis_bench.report.shared.page import Section
 from hysteresis_bench.report.shared.text import NONE, listed, number
 
 LONG = 600
-"""Seconds."""
+"""Seconds of a diagnosis from which its time is told."""
 NEXT_TO_NOTHING = 0.001
 """Share of the error below which a constant is none, as where every record's own is estimated."""
 

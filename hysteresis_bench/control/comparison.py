@@ -21,8 +21,10 @@ from hysteresis_bench.progress import OnStep, Step, quiet
 
 SLOWEST, FASTEST = 200.0, 1e6
 """Samples a second of references that turn up to 50 times a second and last up to six."""
-RATE = 10_000.0  # 1/s
-AMPLITUDE = 2.0  # output unit; ours
+RATE = 10_000.0
+"""Samples a second where none are asked for."""
+AMPLITUDE = 2.0
+"""Of the references where none is asked for, unit of the output. Ours."""
 SHOWN = 1000
 """Samples of a run that are kept for figures."""
 

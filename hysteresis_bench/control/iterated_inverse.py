@@ -29,6 +29,7 @@ EXACT = 1e-10
 CLOSE = 1e-3
 """What is left after all iterations that is still an inverse: where the output hardly moves, as within a clearance."""
 ITERATIONS = 20_000
+"""At most; then `CLOSE` decides."""
 IDLE = 100
 """Iterations without a smaller error after which the slope is taken to be too small: they go round in a circle."""
 RAMP = 400

@@ -28,6 +28,7 @@ BEFORE, AFTER = "dynamics before the law", "dynamics after the law"
 EXACT = 1e-11
 """Share of the trajectory's range at which the search ends."""
 ITERATIONS = 300
+"""At most."""
 CONDITION = 100.0
 """Of the equations that are solved: beyond it only what rings is still gained."""
 EVEN = 1e-6

@@ -14,8 +14,10 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 
-FADE_IN = 0.2  # s
-COMPLEX = (10.0, 20.0, 30.0, 40.0, 50.0)  # Hz
+FADE_IN = 0.2
+"""Seconds in which a sine comes to its amplitude."""
+COMPLEX = (10.0, 20.0, 30.0, 40.0, 50.0)
+"""Hz: the sines of the complex reference."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -28,7 +28,7 @@ CLEAR = 4.0
 """Standard errors of that, by how the samples lie off the lines: a measured input has noise. Of 1265 made gaps with
 turns 811 are found, and 86 of 1024 without, next to a turn; with half of it 927 and 105, with twice 663 and 57."""
 
-MOST = 5
+MOST_GAPS = 5
 """Gaps of a record, beyond which its samples are few everywhere."""
 
 
@@ -59,7 +59,7 @@ def hidden_turns(record: Record) -> list[tuple[int, int]]:
     gaps = np.flatnonzero(steps > LONG * float(np.median(steps)))
     gaps = gaps[(gaps >= SIDE - 1) & (gaps < time.size - SIDE)]
     found = [int(gap) for gap in gaps if _turned(time, u, int(gap))]
-    if len(found) > MOST:
+    if len(found) > MOST_GAPS:
         return []
     return [(gap, _second_turn(u, gap + 1)) for gap in found]
 

@@ -45,7 +45,7 @@ TURNS = 0.9
 GAP = 1.5
 """Of the steps beside it, from which a step is a gap: nobody knows what happened there."""
 
-MOST = 3
+MOST_JUMPS = 3
 """A record with more of them has a device that jumps. Of jumps that undo each other it is the device as well."""
 
 
@@ -79,7 +79,8 @@ def jumps(record: Record) -> Array:
     found = np.array([gap for gap in far.tolist() if _lone(time, y, gap, float(misses[gap]))], int)
     for low, high in stuck(record):  # the leap at its end is no level that stays
         found = found[np.abs(found + SIDE + record.history - 0.5 * (low + high)) > 0.5 * (high - low) + SIDE]
-    if not 0 < found.size <= MOST or abs(float(np.sum(misses[found]))) <= 0.5 * float(np.max(np.abs(misses[found]))):
+    by = misses[found]
+    if not 0 < found.size <= MOST_JUMPS or abs(float(np.sum(by))) <= 0.5 * float(np.max(np.abs(by))):
         return nothing
     return found + SIDE + record.history
 

@@ -11,13 +11,13 @@ from dataclasses import replace
 
 from hysteresis_bench.signals import Dataset, Record
 
-FEWEST = 40
+FEWEST_SAMPLES = 40
 """Samples of a part that is fitted; a shorter one is left out."""
 
 
 def parts(record: Record, stretches: Sequence[tuple[int, int]]) -> tuple[Record, ...]:
     """stretches : first sample of each, and the one behind; the record itself where all are short"""
-    kept = [(low, high) for low, high in stretches if high - low >= FEWEST]
+    kept = [(low, high) for low, high in stretches if high - low >= FEWEST_SAMPLES]
     if not kept:
         return (record,)
     names = [record.name, *(f"{record.name} from {record.time[low]:.12g}" for low, _ in kept[1:])]

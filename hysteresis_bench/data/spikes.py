@@ -47,6 +47,7 @@ SEEN_AT = 5
 """Samples that lie far off their cubics because of one spike, at most."""
 
 LISTED = 8
+"""Samples that a sentence names."""
 
 
 def without_spikes(dataset: Dataset) -> Dataset:

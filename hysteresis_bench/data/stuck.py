@@ -34,7 +34,7 @@ it 112, with twice it 102; none where there is none, in 435 records either way."
 SMALLEST = 0.01
 """Of the output's range, what is left alone in any case."""
 
-MOST, LONGEST = 3, 0.3
+MOST_STRETCHES, MOST_OF_A_RECORD = 3, 0.3
 """Stretches of a record, and their share of it, beyond which it is the device."""
 
 
@@ -74,7 +74,7 @@ def stuck(record: Record) -> list[tuple[int, int]]:
         if np.ptp(u[low - 1 : high]) > MOVED * np.ptp(u)
         and (_leaps(y, u, high, least) if high < y.size else _leaps(y, u, low - 1, least))
     ]
-    few = len(found) <= MOST and sum(high - low for low, high in found) <= LONGEST * y.size
+    few = len(found) <= MOST_STRETCHES and sum(high - low for low, high in found) <= MOST_OF_A_RECORD * y.size
     return [(low + record.history, high + record.history) for low, high in found] if few else []
 
 

@@ -24,7 +24,7 @@ BESIDE = 3
 UNEVEN = 4.0
 """Ratio of the ninth to the first decile of the steps beyond which no step can be told to be long."""
 
-FEWEST = 10
+FEWEST_STEPS = 10
 """Steps by which the usual one is known."""
 
 ALIKE, MOVED = 2.0, 1.5
@@ -39,7 +39,7 @@ SHOWN = 4
 def time_holes(record: Record) -> Array:
     """The last sample before each hole, rising indices; empty where there is none, or where the steps are uneven."""
     steps = np.diff(record.time)
-    if steps.size < FEWEST:
+    if steps.size < FEWEST_STEPS:
         return np.empty(0, dtype=int)
     low, middle, high = np.quantile(steps, (0.1, 0.5, 0.9))
     if high > UNEVEN * low:

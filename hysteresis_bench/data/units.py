@@ -22,7 +22,7 @@ from hysteresis_bench.signals import UNITLESS, Dataset, Record
 
 MEASURED = ("time", "input", "output")
 
-LONGEST = 60
+LONGEST_UNIT = 60
 """Characters beyond which a text is no unit."""
 
 ARBITRARY = frozenset({"a.u", "au", "AU"})
@@ -193,7 +193,7 @@ def _parsed(text: str) -> Any:
     """The unit of a text, or None where it is none that is known."""
     plain = text.strip().replace("**", "^")
     if (
-        len(plain) > LONGEST
+        len(plain) > LONGEST_UNIT
         or not SPELLED.fullmatch(plain)
         or plain.rstrip(".") in ARBITRARY
         or plain.endswith(".")

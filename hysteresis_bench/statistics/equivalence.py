@@ -22,10 +22,12 @@ REGION = log(1.01)
 PRIOR = 0.5
 """[1] Strength of the prior, one pseudo-observation of no difference."""
 DRAWS = 20_000
+"""Of the weights: a probability is known to 0.0035 (one standard error at most)."""
 
-MOST = 0.6
+MAJORITY = 0.6
 """Share of all values in one region from which their weights alone are looked at first."""
 ROUNDING = 1e-9
+"""Of sums of weights."""
 
 AT_ONCE = 100_000
 """Weights that are summed together: as many as stay in a processor's cache."""
@@ -74,7 +76,7 @@ class _Sums:
         all pairs. -1 where they do not. weights : (draws, n) of the values in the order before they were ranked"""
         found = np.full(len(weights), -1)
         region = int(np.argmax(sizes := np.diff(self._ends)))
-        if sizes[region] > MOST * order.size:
+        if sizes[region] > MAJORITY * order.size:
             outside = np.zeros(len(weights))
             others = np.delete(order, slice(*self._ends[region : region + 2]))
             for part in np.array_split(np.arange(len(weights)), max(1, len(weights) * others.size // AT_ONCE)):

@@ -23,7 +23,7 @@ ENOUGH = 14
 LEVEL = 0.05
 """Level of significance, after Holm's correction."""
 
-EXACT = 200
+COUNTED_EXACTLY = 200
 """Blocks up to which the signed-rank test counts all signs."""
 
 
@@ -58,7 +58,8 @@ def signed_rank(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> SignedR
     """[2] Signed-rank test of paired values, (blocks,) each; zero differences after Pratt.
 
     From all signs that the differences might have had: where most are 0, a normal distribution is far off (it would
-    call equal optimizers different in 12 % of studies where 4 of 20 instances differ). Beyond EXACT blocks it is close.
+    call equal optimizers different in 12 % of studies where 4 of 20 instances differ). Beyond COUNTED_EXACTLY blocks it
+    is close.
     """
     from scipy import stats
 
@@ -68,7 +69,7 @@ def signed_rank(ours: ArrayLike, theirs: ArrayLike, tie: float = 0.0) -> SignedR
     doubled = np.rint(2.0 * stats.rankdata(np.abs(found))).astype(int)  # ties have half ranks
     positive, negative = int(doubled[found > 0.0].sum()), int(doubled[found < 0.0].sum())
     favours = (negative > positive) - (negative < positive)
-    if found.size > EXACT:
+    if found.size > COUNTED_EXACTLY:
         return SignedRank(float(stats.wilcoxon(found, zero_method="pratt", method="asymptotic").pvalue), favours)
     return SignedRank(_two_sided(doubled[found != 0.0], positive), favours)
 

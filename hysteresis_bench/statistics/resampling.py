@@ -14,7 +14,8 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.statistics.description import quantile
 
 RESAMPLES = 2000
-LEVEL = 0.95
+"""Of an interval: 50 of them lie beyond either end of it."""
+COVERAGE = 0.95
 """Of all intervals: how often they hold what they are of."""
 
 
@@ -27,8 +28,8 @@ def counts(blocks: int) -> Array:
 
 
 def percentiles(values: Array) -> tuple[float, float]:
-    """[1] The interval that holds the middle LEVEL of the resampled values."""
-    return quantile(values, (1.0 - LEVEL) / 2.0), quantile(values, (1.0 + LEVEL) / 2.0)
+    """[1] The interval that holds the middle COVERAGE of the resampled values."""
+    return quantile(values, (1.0 - COVERAGE) / 2.0), quantile(values, (1.0 + COVERAGE) / 2.0)
 
 
 def median_interval(values: ArrayLike) -> tuple[float, float]:

@@ -43,7 +43,7 @@ def test_a_reader_that_crashes_is_a_sentence(tmp_path):
 
 
 def test_a_reader_that_never_ends_is_a_sentence(tmp_path, monkeypatch):
-    monkeypatch.setattr(apart, "LONGEST", 0.2)
+    monkeypatch.setattr(apart, "LONGEST_READ", 0.2)
     before = time.monotonic()
     with pytest.raises(UserError, match="does not come to an end"):
         read_apart(lambda: time.sleep(60.0), tmp_path / "a.h5", "HDF5")

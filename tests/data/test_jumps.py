@@ -7,7 +7,7 @@ import pytest
 
 from hysteresis_bench import fit, measure
 from hysteresis_bench.data.jumps import SIDE, jumps, jumps_in_words, parted_at_jumps
-from hysteresis_bench.data.parts import FEWEST
+from hysteresis_bench.data.parts import FEWEST_SAMPLES
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.diagnosis_study.imperfections import IMPERFECTIONS
 from hysteresis_bench.fit.checks.faulty_records import without_faults
@@ -75,7 +75,7 @@ def test_parts_have_names_of_their_own_at_a_clock_of_many_digits():
 
 
 def test_a_part_too_short_to_be_fitted_is_left_out():
-    late, early = TIME.size - FEWEST // 2, 2 * SIDE + 25
+    late, early = TIME.size - FEWEST_SAMPLES // 2, 2 * SIDE + 25
     only = parted_at_jumps(Dataset((slipped((late, 0.8)),))).records
     assert [(one.name, one.time.size) for one in only] == [("loop", late)]
     only = parted_at_jumps(Dataset((slipped((early, 0.8)),))).records

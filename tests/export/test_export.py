@@ -45,9 +45,9 @@ LAWS = {
     **{
         law: dict(registry.load("models", law).loaded.example.parameters)
         for law in (
-            "bouc-wen-generalized", "chaboche", "dahl", "duhem", "energy-based", "ferroelectric", "flag-shaped",
-            "folz-filiatrault", "maxwell-slip", "pinching", "prandtl-ishlinskii", "prandtl-ishlinskii-modified",
-            "preisach", "self-centring",
+            "bouc-wen-generalized", "chaboche", "chaboche-bowed", "dahl", "duhem", "energy-based", "ferroelectric",
+            "flag-shaped", "folz-filiatrault", "maxwell-slip", "pinching", "prandtl-ishlinskii",
+            "prandtl-ishlinskii-modified", "preisach", "self-centring",
         )
     },
     "oscillator": {**MASS, "alpha": 0.35, "beta": 0.7, "gamma": 0.15, "d": 1.2},
@@ -74,6 +74,7 @@ RIPPLE = {"sine": 0.1, "cosine": -0.2, "second": 0.4, "second_aside": -0.3, "per
 WEIGHTS = {f"weight{k}": (-1) ** k * 0.1 * k for k in range(1, 8)}
 EFFECTS = {
     "asymmetry": {"curvature": 0.03},
+    "input-bias": {"offset": 0.2},
     "backlash": {"half_width": 0.3},
     "bias": {"offset": 0.7},
     "cogging": RIPPLE,
@@ -236,6 +237,7 @@ def test_c_and_python_say_what_predict_says(case, tmp_path, compiler):
 
 REFUSED = {
     **dict.fromkeys(("temperature-sensitivity", "response-with-temperature"), "a step is given time and input alone"),
+    "late-input": "needs the input to come",
     **dict.fromkeys(("viscous-damping", "damping-curve"), "which needs the next sample"),
 }
 

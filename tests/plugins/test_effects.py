@@ -59,6 +59,15 @@ def test_a_delayed_output_is_the_output_of_an_earlier_input():
     np.testing.assert_allclose(y, 2.0 * np.interp(TIME - 0.137, TIME, DRIVE), atol=1e-12)
 
 
+def test_behind_a_late_input_the_output_is_that_of_a_later_one():
+    y = applied("late-input", record().signal, advance=0.137)
+    np.testing.assert_allclose(y, 2.0 * np.interp(TIME + 0.137, TIME, DRIVE), atol=1e-12)
+    uneven = np.sort(np.random.default_rng(1).uniform(0.0, 5.0, 90))
+    drive = np.sin(3.0 * uneven)
+    y = applied("late-input", Signal(uneven, drive[:, None]), advance=0.2)
+    np.testing.assert_allclose(y, 2.0 * np.interp(uneven + 0.2, uneven, drive), atol=1e-12)
+
+
 def test_creep_keeps_the_static_gain_and_grows_with_the_logarithm_of_time():
     time = np.concatenate([[-1e-6], np.geomspace(1e-6, 1e5, 2000)])
     step = Signal(time, np.where(time > 0, 1.0, 0.0)[:, None])

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_plugins.models.chaboche import Chaboche
+from hysteresis_plugins.models.chaboche_bowed import ChabocheBowed
 from hysteresis_plugins.models.flag_shaped import FlagShaped
 from hysteresis_plugins.models.folz_filiatrault import FolzFiliatrault
 from hysteresis_plugins.models.pinching import Pinching
@@ -13,6 +14,7 @@ from tests.plugins.truths import assert_found_again, record, waves
 METAL = {"u_y": 0.1, "Q": 0.4, "b": 0.1, "D": 0.1, "a": 1.0, "S_1": 0.6, "gamma_1": 9.0, "S_2": 0.8, "gamma_2": 2.0}
 TRUTHS = (
     (Chaboche(), METAL, {"E": 2.0}),
+    (ChabocheBowed(), {**METAL, "bow": 0.8, "u_b": 0.1}, {"E": 2.0, "loss": 0.5}),
     (
         FolzFiliatrault(),
         {"u_y": 0.1, "r_1": 0.05, "r_3": 1.2, "f_I": 0.1, "r_4": 0.3, "alpha": 0.6, "beta": 1.05},

@@ -29,7 +29,7 @@ from hysteresis_bench.report.diagnosis.before_after import bars_from
 from hysteresis_bench.report.diagnosis.figures import WITHOUT, Bar, bars_of, draw_residual, residuals, waterfall
 from hysteresis_bench.report.diagnosis.for_papers import draw_diagnosis
 from hysteresis_bench.report.diagnosis.in_print import first_sentence, in_print
-from hysteresis_bench.report.diagnosis.page import MOST, write_diagnosis_page
+from hysteresis_bench.report.diagnosis.page import RECORDS_DRAWN, write_diagnosis_page
 from hysteresis_bench.signals import Record
 
 UNITS = {"time": "s", "input": "V", "output": "um"}
@@ -174,9 +174,9 @@ def test_many_records_are_told_and_some_drawn(tmp_path, diagnosis):
     one = diagnosis.responses[diagnosis.responses["record"] == "slow"]
     many = pd.concat([one.assign(record=f"r{number}") for number in range(9)] + [diagnosis.responses])
     page = _written(tmp_path, replace(diagnosis, responses=many))
-    assert f"{12 - MOST} more records are not drawn" in page
+    assert f"{12 - RECORDS_DRAWN} more records are not drawn" in page
     assert "other (held-out)" in page
-    assert len(list((tmp_path / "figures").glob("loop-*-after.svg"))) == MOST
+    assert len(list((tmp_path / "figures").glob("loop-*-after.svg"))) == RECORDS_DRAWN
 
 
 def test_the_page_of_an_older_diagnosis_shows_what_its_files_have(tmp_path, diagnosis):

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import statistics
-from hysteresis_bench.statistics.ranks import EXACT
+from hysteresis_bench.statistics.ranks import COUNTED_EXACTLY
 
 
 def sample(values):
@@ -28,7 +28,7 @@ def test_many_small_wins_against_large_losses_are_no_better():
     assert (mirrored.favours, mirrored.verdict) == (1, statistics.CANNOT_TELL)
 
 
-@pytest.mark.parametrize("blocks", [20, EXACT + 50])
+@pytest.mark.parametrize("blocks", [20, COUNTED_EXACTLY + 50])
 def test_the_test_favours_the_lower_one_by_ranks(blocks):
     lower = np.arange(blocks) + 0.5 * np.sin(np.arange(blocks))
     higher = np.arange(blocks) + 1.0

@@ -106,12 +106,12 @@ def say_understood(console: Console, dataset: Dataset) -> None:
     table = Table(title="read as", title_justify="left", box=None, title_style="bold", pad_edge=False)
     for heading in rows[0] if rows else ():
         table.add_column(heading, justify="right" if heading in ("samples", "gaps") else "left", overflow="fold")
-    for row in rows[:MOST]:
+    for row in rows[:RECORDS_SHOWN]:
         table.add_row(*(escape(text) for text in row.values()))
     console.print(table, highlight=False)
-    if len(rows) > MOST:
-        console.print(f"and {len(rows) - MOST} more records.", highlight=False)
+    if len(rows) > RECORDS_SHOWN:
+        console.print(f"and {len(rows) - RECORDS_SHOWN} more records.", highlight=False)
 
 
-MOST = 20
+RECORDS_SHOWN = 20
 """Records that a terminal shows."""

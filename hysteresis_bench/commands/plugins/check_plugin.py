@@ -26,7 +26,7 @@ SINGULAR: dict[str, registry.Kind] = {
     "rig": "rigs",
 }
 FAILED = 1
-LONGEST = 1e6
+LONGEST_TIMEOUT = 1e6
 """Seconds that a test may take; a timer of the system takes no number of them beyond."""
 
 
@@ -35,7 +35,7 @@ LONGEST = 1e6
 @click.option("--kind", type=click.Choice(list(SINGULAR)), help="Where a name is of several kinds.")
 @click.option(
     "--timeout",
-    type=click.FloatRange(min=0, min_open=True, max=LONGEST),
+    type=click.FloatRange(min=0, min_open=True, max=LONGEST_TIMEOUT),
     callback=finite,
     default=120.0,
     show_default=True,

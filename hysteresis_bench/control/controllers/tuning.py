@@ -25,8 +25,11 @@ from hysteresis_bench.control.feed_forward import LinearSection
 from hysteresis_bench.control.observer import observer
 
 PEAK = 2.0
+"""Largest amplification of a disturbance by the loop: its Nyquist curve stays half a unit away from -1."""
 SPARE_SAMPLES = 2.0
+"""Lag that the loop bears beside its own."""
 ERRORS = 3.0
+"""RMSE of the model that a sliding mode's switching exceeds."""
 CAUTIOUS_INTEGRAL = 2.0 * np.pi * 5.0
 """1/s; of a PI on a model without a linear section, which does not know where the actuator resonates."""
 

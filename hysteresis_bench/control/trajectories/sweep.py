@@ -17,7 +17,7 @@ from hysteresis_bench.fit.model_file import FittedModel
 from hysteresis_bench.fit.unseen.excited import AMPLITUDE, FREQUENCY, unlike
 from hysteresis_bench.progress import OnStep, Step, quiet
 
-SHARES = (0.1, 0.25, 0.5, 0.9)
+AMPLITUDES = (0.1, 0.25, 0.5, 0.9)
 """Amplitudes in half ranges of the fitted outputs, about their middle."""
 CENTRED = 0.05
 """Share of the half range of the fitted outputs up to which their middle is taken as 0, where a device is at rest."""
@@ -34,7 +34,7 @@ def sweep(
 ) -> pd.DataFrame:
     """A row an amplitude and frequency: amplitude, frequency, input (the largest), left, expected, beyond, reason.
 
-    frequencies : 1 / unit of time;  amplitudes : unit of the output, by default SHARES
+    frequencies : 1 / unit of time;  amplitudes : unit of the output, by default AMPLITUDES
     left : RMS of the model's answer less the sine;  expected : of that and of the model's own error together
     beyond : in what the input differs from the fitted ones, as words such as "faster, larger", or ""
     reason : why no input was found, "" where one was
@@ -52,7 +52,7 @@ def sweep(
     middle, half = 0.5 * (low + high), 0.5 * (high - low)
     middle, wanted = (
         middle if abs(middle) > CENTRED * half else 0.0,
-        tuple(amplitudes) or tuple(half * s for s in SHARES),
+        tuple(amplitudes) or tuple(half * s for s in AMPLITUDES),
     )
     rows: list[dict[str, Any]] = []
     for amplitude, frequency in product(wanted, frequencies):

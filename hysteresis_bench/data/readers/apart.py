@@ -12,7 +12,7 @@ from hysteresis_bench.errors import UserError
 
 Content = TypeVar("Content")
 
-LONGEST = 300.0
+LONGEST_READ = 300.0
 """Seconds that a file may take."""
 
 
@@ -31,7 +31,7 @@ def read_apart(read: Callable[[], Content], path: Path, kind: str) -> Content:
     process.start()
     sender.close()
     try:
-        if not receiver.poll(LONGEST):
+        if not receiver.poll(LONGEST_READ):
             raise UserError(str(path), f"cannot be read as {kind}: reading it does not come to an end.")
         answer, error = receiver.recv()
     except EOFError:

@@ -15,6 +15,7 @@ BESIDE = re.compile(rf"t0 *= *{NUMBER}[^,;\t]*[,;\t] *tInc *= *{NUMBER}.*", re.I
 WORDS = ("start", "increment")
 """`X,CH1,CH2,Start,Increment` above `Sequence,Volt,Volt,-0.2,0.001`"""
 DIGITS = 12
+"""Significant ones of a time that is computed, so that rounding adds none."""
 
 
 def clocked(lines: Sequence[str], mark: str) -> tuple[list[str], str] | None:

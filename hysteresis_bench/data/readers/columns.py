@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import pandas as pd
 
 from hysteresis_bench.data.layout import ALIASES, ROLES, Layout
-from hysteresis_bench.data.readers.sheet import LONGEST, Sheet, parted
+from hysteresis_bench.data.readers.sheet import LONGEST_NAME, Sheet, parted
 from hysteresis_bench.errors import UserError, nearest
 
 KEEP_FAULTS = 8
@@ -38,7 +38,7 @@ def named(where: str, sheet: Sheet, layout: Layout, required: Sequence[str]) -> 
     width = sheet.cells.shape[1]
     headers = [*sheet.headers[:width], *[""] * (width - len(sheet.headers))]
     for number, header in enumerate(headers, start=1):
-        if len(header) > LONGEST:
+        if len(header) > LONGEST_NAME:
             found = f"column {number} has a name of {len(header)} characters; is the first line a header?"
             raise UserError(where, found)
     names, units = [], {}

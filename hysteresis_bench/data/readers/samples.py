@@ -33,7 +33,7 @@ LARGEST = 1e70
 samples, which must stay below 1.8e308."""
 GAPS = 0.2
 """Share of rows without a number that are gaps; more of them are a fault of the file."""
-FEW = 5
+FEW_LINES = 5
 """Lines that a footer, or a header in the middle, has at most."""
 MEASURED = re.compile(r"[-+]?[\d.,]+([eE][-+]?\d+)? ?[A-Za-z%°µμ/]+[\w/²³]*")
 """A number with a unit behind it."""
@@ -173,7 +173,7 @@ def _fault(table: pd.DataFrame, name: str, bad: Array, decimal: str, missing: in
     elif bad.size == len(cells) and not too_large and name in ROLES:
         rate = ", or --rate HZ" if name == "time" else ""
         helps = f" The column holds no number at all; give another with --{name} NAME{rate}."
-    elif bad.size <= FEW and (name == "time" or not any(map(looks_like_a_number, measured))):
+    elif bad.size <= FEW_LINES and (name == "time" or not any(map(looks_like_a_number, measured))):
         helps = " If the line is no sample, take it out, or begin it with #."
     elif name == "time":
         helps = " Give --rate HZ in place of the time."

@@ -18,9 +18,9 @@ ROUND = re.compile(r"(?P<name>[^()]*[^()\s])\s*\((?P<unit>[^()]+)\)")
 SPELLED_OUT = re.compile(r"(?P<name>.*\S)\s+(?:/|in)\s+(?P<unit>\S+)")
 TIMED = re.compile(r"(?P<name>t|time|zeit)[_:.-](?P<unit>[numµμ]?s|m?sec|min|h)", re.IGNORECASE)
 BRACKETS = re.compile(r"[\[(](.*)[\])]")
-LONGEST = 200
+LONGEST_NAME = 200
 """Characters of a column's name."""
-FEW = 3
+FEW_ROWS = 3
 """Rows by which data are told from a line of a preamble."""
 TOP = 100
 """Rows among which a header is looked for."""
@@ -90,12 +90,12 @@ def top_of(rows: Sequence[Sequence[str]], wanted: Iterable[str | None]) -> Top:
     names = {role: {role, *ALIASES[role]} for role in ROLES}
     asked = {name.strip().lower() for name in wanted if name}
     for index, row in enumerate(rows):
-        plain = {parted(cell)[0].lower() for cell in row if len(cell) <= LONGEST}
+        plain = {parted(cell)[0].lower() for cell in row if len(cell) <= LONGEST_NAME}
         plain |= {cell.strip().lower() for cell in row}
         hits = sum(bool(known & plain) for known in names.values()) + len(asked & plain)
         if hits >= min(2, len(row)):
             return _with_units(rows, index)
-    first = next((index for index in range(len(rows)) if _begins_data(rows[index : index + FEW])), None)
+    first = next((index for index in range(len(rows)) if _begins_data(rows[index : index + FEW_ROWS])), None)
     if first is None:
         return _with_units(rows, 0)
     above = [index for index in range(first) if len(rows[index]) == len(rows[first])]

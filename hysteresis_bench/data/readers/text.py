@@ -15,7 +15,7 @@ import pandas as pd
 from hysteresis_bench.data.layout import Layout
 from hysteresis_bench.data.readers.clocks import clocked
 from hysteresis_bench.data.readers.numbers import Ambiguous, decimal_mark, looks_like_a_number
-from hysteresis_bench.data.readers.sheet import LONGEST, TOP, Sheet, top_of, units_in
+from hysteresis_bench.data.readers.sheet import LONGEST_NAME, TOP, Sheet, top_of, units_in
 from hysteresis_bench.errors import UserError
 
 COMMENT = re.compile(r"\s*(#|%|//|!)")
@@ -104,7 +104,7 @@ def _decoded(path: Path) -> tuple[str, list[str]]:
 
 def _double_quoted(text: str) -> str:
     """The text with double quotes about its cells where the first lines have single ones."""
-    first = text[: 50 * LONGEST]
+    first = text[: 50 * LONGEST_NAME]
     if len(SINGLE.findall(first)) < FEW_CELLS or '"' in first:
         return text
     return SINGLE.sub(r'"\1"', text)
@@ -146,7 +146,7 @@ def _delimiter(lines: Sequence[str]) -> str:
     """The mark by which most cells of most lines are numbers; a comma where none is better."""
     best, most = ",", 0.0
     for mark in CANDIDATES:
-        rows = [_cells(line[: 50 * LONGEST], mark) for line in lines]
+        rows = [_cells(line[: 50 * LONGEST_NAME], mark) for line in lines]
         width = Counter(map(len, rows)).most_common(1)[0][0]
         if width < 2:
             continue

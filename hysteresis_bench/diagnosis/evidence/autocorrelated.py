@@ -23,8 +23,10 @@ from hysteresis_bench.arrays import Array
 
 Parts = Sequence[Array]
 
-ORDERS = 12
-FEWEST = 4.0
+MOST_ORDERS = 12
+"""Of the autoregression that errors follow, among which BIC chooses."""
+
+FEWEST_DEGREES = 4.0
 """Degrees of freedom of an F test below, at least: the estimate of their number is rough."""
 STRETCH, STRETCHES = 8.0, 4
 """Degrees of freedom of the mean square of a stretch, from which its logarithm is nearly normal, and how many stretches
@@ -46,7 +48,7 @@ class FTest:
 
 def autoregression(errors: Parts) -> Array:
     """Coefficients a_1..a_p of e_i = sum a_j e_(i-j) + white, order by BIC, pooled over the records."""
-    top = min(ORDERS, min(error.size for error in errors) // 10)
+    top = min(MOST_ORDERS, min(error.size for error in errors) // 10)
     if top < 1:
         return np.zeros(0)
     lagged = [np.column_stack([error[top - j : error.size - j] for j in range(top + 1)]) for error in errors]
@@ -154,10 +156,10 @@ def f_test(errors: Parts, columns: Parts, nuisance: Parts | None = None, level: 
 
 
 def f_tail(statistic: float, above: float, below: float) -> float:
-    """P(F > statistic), with at least `FEWEST` degrees of freedom below."""
+    """P(F > statistic), with at least `FEWEST_DEGREES` degrees of freedom below."""
     from scipy.special import fdtrc
 
-    return float(fdtrc(above, max(below, FEWEST), max(statistic, 0.0)))
+    return float(fdtrc(above, max(below, FEWEST_DEGREES), max(statistic, 0.0)))
 
 
 def overlooked(effective: float, columns: int, level: float) -> float:
@@ -168,7 +170,7 @@ def overlooked(effective: float, columns: int, level: float) -> float:
     freedom = effective - columns - 1.0  # each test leaves a mean free
     if freedom <= 0.0:
         return 1.0
-    passing = float(fdtri(columns, max(freedom, FEWEST), 1.0 - level))
+    passing = float(fdtri(columns, max(freedom, FEWEST_DEGREES), 1.0 - level))
     ratio = passing * (effective + 2.0 * (columns + 1.0)) / effective * columns / freedom
     return ratio / (1.0 + ratio)
 

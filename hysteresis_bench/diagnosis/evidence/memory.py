@@ -30,6 +30,8 @@ MATERIAL = 0.005
 """Explained RMS, as a share of the output's range, from which branches matter."""
 
 LEVEL = 0.01
+"""p of the test whether branches predict better than the best law without memory, below which they do."""
+
 UNCLEAR = 2.0
 """Times the noise that the best law may leave, if it is to say that no hysteresis is needed."""
 
@@ -37,6 +39,8 @@ BLOCKS = 40
 """Blocks a record is cut into; every fifth is left out in turn."""
 
 FOLDS = 5
+"""Parts that are left out in turn."""
+
 PLAYS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.45, 0.6, 0.8)
 """Half-widths, as shares of half the input's range."""
 
@@ -47,6 +51,7 @@ UNLIKE = 1.3
 """Ratio of the slow to the fast, or the large to the small half-cycles, from which lag and hysteresis differ."""
 
 RIDGES = (1e-9, 1e-6, 1e-4)
+"""Penalties of the regressions that are tried, a sample: what predicts best is taken."""
 
 
 @dataclass(frozen=True)

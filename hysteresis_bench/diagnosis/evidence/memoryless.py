@@ -17,16 +17,21 @@ from hysteresis_bench.diagnosis.evidence import covariates
 from hysteresis_bench.diagnosis.evidence.view import View
 
 INTERVALS = 14
+"""Of the spline that a curve is, over the range of the input."""
+
 LAGS = 6
+"""Time constants of the spectrum of first-order lags."""
+
 SHARED_DELAYS = np.geomspace(2e-3, 0.25, 9)
 """Delays and lags tried for all records alike, as shares of their shortest period."""
 
 DAMPINGS = np.array([0.03, 0.1, 0.3])
+"""Ratios of the resonances that are tried."""
 
 OWN_DELAY = 0.015
 """A record's own delay is at most this share of its period: an instrument's, not a law."""
 
-MOST = 3000
+MOST_SAMPLES = 3000
 """Samples beyond which records are thinned: the question is about shapes, not about digits."""
 
 
@@ -66,8 +71,8 @@ Score = Callable[[Law], float]
 
 
 def thinned(views: Sequence[View]) -> list[Thinned]:
-    """The records with MOST counted samples at most."""
-    every = max(1, -(-sum(view.y.size for view in views) // MOST))
+    """The records with MOST_SAMPLES counted samples at most."""
+    every = max(1, -(-sum(view.y.size for view in views) // MOST_SAMPLES))
     return [
         Thinned(
             view.record.time,

@@ -29,6 +29,8 @@ ORDERS = (2, 3, 4, 5, 6, 8, 10, 12)
 """Orders tried. A higher one forgets more of the signal and costs precision."""
 
 LAGS = (1, 2, 4)
+"""Distances of the samples compared, by which coloured noise is told."""
+
 CLIP = 3.0
 """Differences beyond so many times the noise are no noise but a kink."""
 SHRINK = sqrt(1.0 - 2.0 * CLIP * exp(-0.5 * CLIP**2) / sqrt(2.0 * pi) / erf(CLIP / sqrt(2.0)))

@@ -26,10 +26,10 @@ from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.statistics import LEVEL, holm
 
 OVERALL = "all"
-FEWEST = 40
+FEWEST_SAMPLES = 40
 """Samples below which a record is only told of together with the others."""
 
-SMALLEST = 0.001
+LEAST_P = 0.001
 """The least p that is told."""
 
 TAPS = (0, 1, 2, 4, 8, 16)
@@ -64,7 +64,7 @@ def residual_tests(views: Sequence[View], residuals: Sequence[Array]) -> list[Re
     """
     found: list[ResidualTest] = []
     for view, residual in zip(views, residuals, strict=True):
-        if len(views) == 1 or residual.size >= FEWEST:
+        if len(views) == 1 or residual.size >= FEWEST_SAMPLES:
             found += _tests(view.record.name, [view], [residual])
     if len(views) > 1:
         found += _tests(OVERALL, views, residuals)
@@ -80,7 +80,7 @@ def _told(test: ResidualTest) -> ResidualTest:
 
 def p_in_words(p: float) -> str:
     """p = 0.023, or p < 0.001: below that its size says nothing more."""
-    return "p < 0.001" if p < SMALLEST else f"p = {p:.2g}"
+    return "p < 0.001" if p < LEAST_P else f"p = {p:.2g}"
 
 
 def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iterator[ResidualTest]:
@@ -111,7 +111,7 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
         yield test(kind, answer.statistic, answer.p, answer.share, words)
     if all(view.record.timed and view.even for view in views):
         longest, residual = max(zip(views, residuals, strict=True), key=lambda pair: pair[1].size)
-        if residual.size >= spectrum.FEWEST:
+        if residual.size >= spectrum.FEWEST_SAMPLES:
             line = spectrum.line(residual, longest.step)
             at = frequency_in(longest.record.units.get("time", "1"), line.frequency)
             words = f"has a spectral line at {at}{_drive(longest, line.frequency)}"

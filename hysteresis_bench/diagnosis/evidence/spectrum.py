@@ -16,8 +16,10 @@ BACKGROUND = 30
 """Neighbours on either side that a line is compared with."""
 
 SEGMENTS = 8
+"""Parts of a record over which the coherence is averaged: with more of them chance makes less of it, and slow lines
+are lost."""
 
-FEWEST = 4 * BACKGROUND
+FEWEST_SAMPLES = 4 * BACKGROUND
 """Samples below which there is no spectrum to speak of."""
 
 

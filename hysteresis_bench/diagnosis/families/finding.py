@@ -18,7 +18,7 @@ from hysteresis_bench.parameters import Parameter
 STRAIGHT = 0.9
 """Net change over all movement from which a curve rises, or falls, from end to end."""
 
-LEVEL, STEEP = 0.4, 1.8
+LEVELLING, STEEPENING = 0.4, 1.8
 """Slope of the last fifth of a curve over its mean slope, below which it levels off and above which it steepens."""
 
 
@@ -64,7 +64,7 @@ def course(x: Array, y: Array) -> str:
     if abs(net) > STRAIGHT * moved:
         last = x >= x[0] + 0.8 * (x[-1] - x[0])
         ratio = float((y[-1] - y[last][0]) / (x[-1] - x[last][0]) / (net / (x[-1] - x[0])))
-        ends = " and levels off" if ratio < LEVEL else ", faster at the end" if ratio > STEEP else ""
+        ends = " and levels off" if ratio < LEVELLING else ", faster at the end" if ratio > STEEPENING else ""
         return f"{'rises' if net > 0.0 else 'falls'}{ends}"
     top, bottom = int(np.argmax(y)), int(np.argmin(y))
     peaked = abs(y[top] - y[0]) + abs(y[top] - y[-1]) > STRAIGHT * moved

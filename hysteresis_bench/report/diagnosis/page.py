@@ -42,7 +42,7 @@ from hysteresis_bench.report.shared.text import NONE, listed, percent, sentence
 
 FILE = "diagnosis.html"
 
-MOST = 6
+RECORDS_DRAWN = 6
 """Records that are drawn."""
 
 
@@ -198,7 +198,7 @@ def _shown(records: Sequence[pd.DataFrame]) -> list[pd.DataFrame]:
     """At most half of the drawn records are held-out ones, where there are enough others."""
     held_out = [rows for rows in records if rows["role"].iloc[0] == "held-out"]
     fitted = [rows for rows in records if rows["role"].iloc[0] != "held-out"]
-    return [*held_out[: max(MOST // 2, MOST - len(fitted))], *fitted][:MOST]
+    return [*held_out[: max(RECORDS_DRAWN // 2, RECORDS_DRAWN - len(fitted))], *fitted][:RECORDS_DRAWN]
 
 
 def _considered(kept: KeptDiagnosis) -> Section:

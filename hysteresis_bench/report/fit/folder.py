@@ -24,7 +24,7 @@ from hysteresis_bench.report.shared.text import listed
 MODEL, RESPONSES, PARAMETERS = "model.json", "responses.csv", "parameters.csv"
 FILES = (MODEL, RESPONSES, PARAMETERS, FILE)
 
-MOST = 30
+PARAMETERS_SHOWN = 30
 """Parameters of which the terminal shows all: of more it leaves out those that are not determined one by one."""
 
 
@@ -59,7 +59,7 @@ def write_fit(folder: Path, fit: Fit, files: Sequence[Path]) -> Path:
 def spared(model: FittedModel) -> list[str]:
     """Parameters that the terminal leaves out, such as the weights of a density, of which no single one means much."""
     unknown = [name for name, estimate in model.parameters.items() if estimate.standard_error is None]
-    return unknown if len(model.parameters) > MOST else []
+    return unknown if len(model.parameters) > PARAMETERS_SHOWN else []
 
 
 def spared_words(left_out: Sequence[str], file: str) -> str:

@@ -26,7 +26,7 @@ from hysteresis_bench.report.shared.theme import SERIES, Picture
 
 FILE = "fit.html"
 
-MOST = 24
+RECORDS_DRAWN = 24
 """Records whose figures are shown; the tables have all of them."""
 
 GRADES = (
@@ -98,7 +98,7 @@ def _grade(records: Sequence[Mapping[str, Any]]) -> str:
 
 def _left_out(responses: pd.DataFrame) -> str:
     count = responses["record"].nunique() if len(responses) else 0
-    return f"The figures show the first {MOST} of {count} records." if count > MOST else ""
+    return f"The figures show the first {RECORDS_DRAWN} of {count} records." if count > RECORDS_DRAWN else ""
 
 
 def _parameters(parameters: Sequence[Mapping[str, Any]]) -> Table:
@@ -127,7 +127,7 @@ def _pictures(folder: Path, fit: Mapping[str, Any], responses: pd.DataFrame) -> 
     loops, residuals = [], []
     units = fit.get("units", {})
     for index, (record, rows) in enumerate(responses.groupby("record", sort=False)):
-        if index >= MOST:
+        if index >= RECORDS_DRAWN:
             break
         role = rows["role"].iloc[0]
         colour = SERIES[0] if role == "fitted" else SERIES[1]

@@ -16,6 +16,7 @@ from hysteresis_bench.report.shared.theme import Picture, legend, picture
 from hysteresis_bench.report.trials.problem import Problem
 
 POINTS = 160
+"""Of a curve."""
 SPAN = 1e3
 """From the longest trial's end back to what is drawn first: the first evaluations say little."""
 

@@ -16,7 +16,7 @@ from hysteresis_bench.report.trials.problem import Problem
 
 ENOUGH = 8
 """Trials below which a cloud says nothing."""
-MOST = 6
+MOST_PARAMETERS = 6
 """Parameters of a grid: more panels cannot be read."""
 DOTS = 120
 """Trials that are drawn: more lie on top of each other, and a page has to be loaded."""
@@ -28,7 +28,7 @@ def final_parameters(folder: Path, name: str, problem: Problem, *, looks: Mappin
     """A grid of every two parameters over the trials of the first instance within 1 % of the best known; None where
     there are fewer than ENOUGH, or one parameter, or all of them ended alike."""
     ended = good_trials(problem)
-    names = [column for column in ended if column.startswith(PREFIX)][:MOST]
+    names = [column for column in ended if column.startswith(PREFIX)][:MOST_PARAMETERS]
     if len(ended) < ENOUGH or len(names) < 2 or _all_alike(ended[names]):
         return None
     count, ended = len(ended), ended.iloc[np.unique(np.linspace(0, len(ended) - 1, DOTS).round().astype(int))]

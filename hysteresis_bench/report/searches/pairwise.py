@@ -14,14 +14,15 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.report.shared.theme import INK, SERIES, Picture, picture
 from hysteresis_bench.report.trials.problem import Problem
 
-MOST = 14
+MOST_OPTIMIZERS = 14
 """Optimizers in a map, best median first: more cannot be read."""
 SHADES = 101
+"""Of the colour map."""
 
 
 def pairwise(folder: Path, name: str, problem: Problem) -> Picture | None:
     """A heat map of A12, bold where a test tells two apart; None where there are too few blocks or optimizers."""
-    labels = problem.ranked[:MOST]
+    labels = problem.ranked[:MOST_OPTIMIZERS]
     if problem.blocks < statistics.ENOUGH or len(labels) < 3:
         return None
     shares, apart = matrices(problem, labels)

@@ -16,14 +16,14 @@ from hysteresis_bench.study.kept_files.trial_rows import FIRST
 from hysteresis_bench.study.results import Results
 
 COLUMNS = 3
-MOST = 8
+MOST_TRIALS = 8
 """Trials shown: more lines than this cannot be followed."""
 
 
 def parameters_by_iteration(results: Results, problem: str, label: str, *, folder: Path, name: str) -> Picture | None:
     """Fitness and parameters of the best so far, a panel each, a line a trial; None where there is no trace."""
     traces = [trace for key, trace in sorted(results.traces.items()) if key[:3] == (problem, label, FIRST)]
-    traces = [trace for trace in traces[:MOST] if trace.points.size]
+    traces = [trace for trace in traces[:MOST_TRIALS] if trace.points.size]
     analysis = results.identifiability.get(problem, {})
     if not traces or "names" not in analysis:
         return None

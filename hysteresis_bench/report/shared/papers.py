@@ -19,7 +19,7 @@ from hysteresis_bench.signals import Dataset
 COLUMN = 3.4
 """Inches: one column of a journal's page."""
 KINDS = (".pdf", ".svg", ".png")
-MOST = 6
+RECORDS_DRAWN = 6
 """Records in one figure."""
 LOOP, STRIP = 2.8, 1.2
 """Inches: heights of a loop, and of an error over time."""
@@ -46,7 +46,7 @@ def draw_records(path: Path, dataset: Dataset) -> None:
 
     def draw(figure: Any) -> None:
         upper, middle, loop = figure.subplots(3, 1, height_ratios=(1, 1, 2))
-        for record, colour in zip(dataset.records[:MOST], SERIES, strict=False):
+        for record, colour in zip(dataset.records[:RECORDS_DRAWN], SERIES, strict=False):
             upper.plot(record.time, record.input, color=colour)
             if record.output is not None:
                 middle.plot(record.time, record.output, color=colour)
@@ -83,7 +83,7 @@ def draw_fit(path: Path, responses: pd.DataFrame, units: Units) -> None:
 
 def _draw_followed(path: Path, parts: Sequence[Part], units: Units, word: str, half: float | None = None) -> None:
     """Loops above, the error of each record that was measured below; half : of the interval's width"""
-    shown = parts[:MOST]
+    shown = parts[:RECORDS_DRAWN]
     known = [index for index, part in enumerate(shown) if part.measured is not None]
     strip_height = STRIP if len(known) < 3 else 0.7 * STRIP
 

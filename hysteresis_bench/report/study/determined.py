@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from pathlib import Path
+from statistics import NormalDist
 from typing import Any
 
 import numpy as np
@@ -21,7 +22,7 @@ from hysteresis_bench.study.problems import boxed, build_system
 from hysteresis_bench.study.results import Results
 from hysteresis_bench.study.study_file import ProblemSpec
 
-LIMIT = 3.841
+LIMIT = NormalDist().inv_cdf(0.975) ** 2
 """95 % quantile of chi-square with one degree of freedom, for uncorrelated residuals."""
 WELL = 0.2
 """Standard error over the value up to which a parameter is well determined. Ours: of the kept results 29 % and more are

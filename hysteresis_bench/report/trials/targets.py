@@ -19,7 +19,7 @@ EXCESSES = (0.001, 0.01, 0.03, 0.1)
 """Shares above the best known at which success may begin."""
 POINTS = 200
 """Of a convergence curve, for the area over it."""
-SHARES = (0.1, 0.3, 1.0)
+BUDGET_SHARES = (0.1, 0.3, 1.0)
 """Of the budget, at which one may stop."""
 
 
@@ -44,13 +44,13 @@ def _table(problem: Problem, budget: int) -> Table:
         row: list[str | Cell] = [name, *(percent(np.mean(ratios <= 1.0 + excess), 3) for excess in EXCESSES)]
         if problem.traces:
             row += [whole(_running_time(problem, label, excess)) for excess in EXCESSES[1:]]
-            row += [number(_after(problem, label, round(share * budget)), 4, "none yet") for share in SHARES]
+            row += [number(_after(problem, label, round(share * budget)), 4, "none yet") for share in BUDGET_SHARES]
             row.append(f"{area_over_curve(problem, label, budget):.3f}")
         rows.append(row)
     header = ["Optimizer", *(f"Within {percent(excess)}" for excess in EXCESSES)]
     if problem.traces:
         header += [f"ERT to {percent(excess)}" for excess in EXCESSES[1:]]
-        header += [*(f"At {percent(share)} of the budget" for share in SHARES), "Area over curve"]
+        header += [*(f"At {percent(share)} of the budget" for share in BUDGET_SHARES), "Area over curve"]
     told = note(problem.ranked, problem.anytime) if problem.traces else ""
     return Table(f"{problem.name}: other targets and budgets", header, rows, told)
 

@@ -14,6 +14,10 @@ def rate(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
     raise ValueError("the rate at a sample is the central difference, which needs the next sample")
 
 
+def ahead(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
+    raise ValueError("it needs the input to come, as that is recorded later than it acts")
+
+
 def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
     if effect.terms:
         raise ValueError("its terms are made of a whole record, samples to come included")

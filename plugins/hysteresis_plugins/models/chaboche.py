@@ -26,6 +26,15 @@ STRESSES = [0, 1, 3, 5, 7]
 """Rows of the kernel's parameters that are stresses over E."""
 
 
+def over_modulus(u: Array, p: Any) -> Array:
+    """Stress over E, (samples, swarm);  u : strain, (samples, 1) or (samples, swarm)"""
+    from hysteresis_bench.kernels.metal_plasticity import metal_plasticity
+
+    shares = np.stack([np.ones_like(p.u_y), p.Q, p.b, p.D, p.a, p.S_1, p.gamma_1, p.S_2, p.gamma_2])
+    shares[STRESSES] *= p.u_y
+    return metal_plasticity(u, shares)
+
+
 @dataclass(frozen=True)
 class Chaboche(Model):
     """Chaboche: elastic strain, then plastic flow with two backstresses and a yield stress that hardens or softens.
@@ -71,11 +80,7 @@ class Chaboche(Model):
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:
-        from hysteresis_bench.kernels.metal_plasticity import metal_plasticity
-
-        shares = np.stack([np.ones_like(p.u_y), p.Q, p.b, p.D, p.a, p.S_1, p.gamma_1, p.S_2, p.gamma_2])
-        shares[STRESSES] *= p.u_y
-        stress = metal_plasticity(signal.input, shares)
+        stress = over_modulus(signal.input, p)
         stress *= p.E
         return stress
 
