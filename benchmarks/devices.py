@@ -262,6 +262,7 @@ DEVICES = (
         "pneumatic cylinder, O-ring, 1 bar",
         _in("pneumatic-friction-tud", "oring_1bar"),
         ("s", "m", "N"),
+        perhaps=("late-input",),
         stride=4,
         laws=FRICTION,
         asked=0.015,
