@@ -15,7 +15,7 @@ from math import prod
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.kernels.white_noise import MEDIAN as MEDIAN
+from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 
 FAR = 10.0

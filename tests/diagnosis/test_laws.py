@@ -194,7 +194,7 @@ def test_what_is_not_asked_for_what_it_predicts_would_not_have_predicted_best(re
 
 def test_what_laws_are_ranked_with_are_effects_that_no_relaxation_makes_up():
     stack = Stack(registry.build("models", "dahl"), records(BOUC_WEN))
-    swinging = {"resonance", "second-order-lag", "second-order-input-lag", "droop"}
+    swinging = {"late-input", "resonance", "second-order-lag", "second-order-input-lag", "droop"}
     assert {*curves(stack)} == {
         "damping-curve",
         "input-curve",

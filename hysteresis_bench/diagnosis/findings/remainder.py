@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
 from hysteresis_bench.diagnosis.search.selection import MISFIT
+from hysteresis_bench.kernels.root_mean_square import rms
 from hysteresis_bench.statistics import LEVEL as OF_A_TEST
 
 REMAINS = 1.1
@@ -42,6 +43,10 @@ UNLIKELY = 0.01
 """p-value below which noise of one loudness does not come in such bursts, and below which what was held out is missed
 by more than what was fitted."""
 
+HALVES = ("first", "second")
+OF_A_SCALE = 0.5
+"""Of the largest change of a scale, from which a half of a record is told to have changed."""
+
 BURSTS = "What is left is loud at some times and quiet at others, as noise seldom is."
 
 OF_THE_NOISE = ("noise-floor", "whiteness", "offset")
@@ -58,8 +63,8 @@ class Remainder:
     heavy : nothing is left but noise of heavy tails: not correlated, without a cause or a term either, and most samples
         are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
-    shape : a sentence, where it repeats itself along the input or the output, comes in bursts, or is far above the
-        noise of the record that it is left of
+    shape : a sentence, where it repeats itself along the input or the output, comes in bursts, is far above the noise
+        of the record that it is left of, or is that of halves of records at other scales
     """
 
     equation: Equation | None
@@ -104,7 +109,8 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     ]
     residuals, simulated = left_by(stage, views)
     louder = _louder(stage, residuals, floor, parameters)
-    missed = _missed_by_its_own_noise(stage, views, residuals, floor)
+    responses = {view.record.name: part[view.record.scored] for view, part in zip(views, simulated, strict=True)}
+    missed = _missed_by_its_own_noise(stage, views, residuals, floor) or _at_other_scales(responses, residuals, floor)
     if stage.fitted.rmse <= floor or not (loud or telling):
         return Remainder(None, bool(missed), False, False, louder, missed)
     equation = find_terms([view.record for view in views], residuals, simulated)
@@ -138,6 +144,30 @@ def _missed_by_its_own_noise(stage: Stage, views: Sequence[View], residuals: Seq
     return (
         f"{view.record.name} is missed by {rounded(most)} times its own noise, {own:.3g} where that of all records is "
         f"{floor:.3g}: what changes faster than the samples of another record follow may pass for noise there."
+    )
+
+
+def _at_other_scales(responses: Mapping[str, Array], residuals: Sequence[Array], floor: float) -> str:
+    """A sentence, where a scale for each half of every record explains, down to the noise, what is left beside a zero
+    of each half, `MISFIT` times the noise or more; else "". So it is where a sensor, or its range, was exchanged.
+
+    responses, residuals : (scored samples,) of each record"""
+    scales, before, after = {}, [], []
+    for (name, response), residual in zip(responses.items(), residuals, strict=True):
+        for half, own, left in zip(HALVES, np.array_split(response, 2), np.array_split(residual, 2), strict=True):
+            own, left = own - own.mean(), left - left.mean()
+            change = float(own @ left) / (float(own @ own) or 1.0)
+            scales[f"the {half} half of {name}"] = 1.0 + change
+            before.append(left)
+            after.append(left - change * own)
+    if rms(np.concatenate(before)) < MISFIT * floor or rms(np.concatenate(after)) > REMAINS * floor:
+        return ""
+    usual = float(np.median([*scales.values()]))
+    most = max(abs(scale - usual) for scale in scales.values())
+    told = [f"{name} {scale / usual:.3g}" for name, scale in scales.items() if abs(scale - usual) > OF_A_SCALE * most]
+    return (
+        f"A scale of its own for each half of a record explains all of it: {', '.join(told)} times as large as the "
+        "others. Was a sensor exchanged, or its range?"
     )
 
 

@@ -15,10 +15,11 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.data.spikes import AROUND, FAR, LISTED, MEDIAN, MOST
+from hysteresis_bench.data.spikes import AROUND, FAR, LISTED, MOST
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.identifiability.combinations import listed
+from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 
 

@@ -8,6 +8,7 @@ import pytest
 from hysteresis_bench.diagnosis.evidence.autocorrelated import equally_loud
 from hysteresis_bench.diagnosis.findings.remainder import (
     Remainder,
+    _at_other_scales,
     _averaged,
     _hidden,
     _louder,
@@ -173,3 +174,20 @@ def test_a_few_samples_that_are_far_off_are_no_fault_of_a_record():
     view = Of(record=record, y=np.ones(1), noise=Of(floor=1.0))
     assert not _missed_by_its_own_noise(whole, [view], [part], 1.0)
     assert _missed_by_its_own_noise(whole, [view], [3.0 * part], 1.0)
+
+
+@pytest.mark.parametrize(("scale", "zero", "told"), [(1.07, 0.0, True), (1.0, 3.0, False), (1.0, 0.0, False)])
+def test_a_scale_that_changes_halfway_is_told_and_no_zero_that_does(scale, zero, told):
+    rng, time = np.random.default_rng(5), np.linspace(0.0, 4.0, 1000)
+    responses = {name: 40.0 * np.sin(2 * np.pi * f * time) for name, f in (("slow", 1.0), ("fast", 3.0), ("mid", 2.0))}
+    residuals = [rng.standard_normal(1000) for _ in responses]
+    residuals[1][500:] += (scale - 1.0) * responses["fast"][500:] + zero
+    said = _at_other_scales(responses, residuals, 1.0)
+    assert said.startswith("A scale of its own for each half of a record") == told
+    assert ("the second half of fast 1.07 times as large" in said) == told
+
+
+def test_no_scale_makes_up_for_a_wrong_shape():
+    time = np.linspace(0.0, 4.0, 1000)
+    response = 40.0 * np.sin(2 * np.pi * time)
+    assert _at_other_scales({"one": response}, [0.05 * response + 3.0 * np.cos(4 * np.pi * time)], 1.0) == ""
