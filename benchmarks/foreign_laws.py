@@ -27,7 +27,7 @@ from unregistered_laws import LAWS
 
 from hysteresis_bench import DiagnosisOptions, diagnose
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis_study.case import by_family, compared
 from hysteresis_bench.signals import Dataset, Record
 

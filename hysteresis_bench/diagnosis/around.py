@@ -12,7 +12,7 @@ from hysteresis_bench.diagnosis.doubt.density import in_its_place
 from hysteresis_bench.diagnosis.doubt.doubt import answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
-from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.findings.conclude import conclude
 from hysteresis_bench.diagnosis.findings.remainder import Remainder, remainder
 from hysteresis_bench.diagnosis.findings.result import Diagnosis

@@ -12,7 +12,7 @@ from hysteresis_bench import registry
 from hysteresis_bench.contracts import DrivenRig, Rig
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.experiments.settled import Tied
-from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.findings.result import Diagnosis
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis.search.certainty import Certainty

@@ -21,7 +21,7 @@ import numpy as np
 
 from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.other_laws import Contender
-from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers

@@ -12,7 +12,7 @@ from hysteresis_bench.diagnosis.doubt.cause import Cause, law_as_cause, made_of_
 from hysteresis_bench.diagnosis.doubt.other_laws import OFFSET, Contender, OtherLaws
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.view import views_of
-from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.hypotheses.workers import Workers
 from hysteresis_bench.diagnosis.preparation import thinned

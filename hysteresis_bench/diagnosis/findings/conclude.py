@@ -13,7 +13,7 @@ from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.autocorrelated import effective_samples
 from hysteresis_bench.diagnosis.experiments.power import Fitted, Left
-from hysteresis_bench.diagnosis.families.finding import family_findings
+from hysteresis_bench.diagnosis.families import family_findings
 from hysteresis_bench.diagnosis.findings.advice import Advice, advise
 from hysteresis_bench.diagnosis.findings.candidates import candidates_of, description_row, step_of
 from hysteresis_bench.diagnosis.findings.description import accepted

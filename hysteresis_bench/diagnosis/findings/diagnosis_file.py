@@ -20,7 +20,7 @@ import pandas as pd
 from hysteresis_bench.data.csv_files import write_table
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.evidence.residual_tests import ResidualTest
-from hysteresis_bench.diagnosis.families.finding import FamilyFinding
+from hysteresis_bench.diagnosis.families import FamilyFinding
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate
 from hysteresis_bench.diagnosis.findings.result import Diagnosis

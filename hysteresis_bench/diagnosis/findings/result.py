@@ -15,7 +15,7 @@ from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.evidence.memory import Memory
 from hysteresis_bench.diagnosis.evidence.noise import Noise
 from hysteresis_bench.diagnosis.experiments.settled import Measured
-from hysteresis_bench.diagnosis.families.finding import FamilyFinding
+from hysteresis_bench.diagnosis.families import FamilyFinding
 from hysteresis_bench.diagnosis.findings.advice import Advice
 from hysteresis_bench.diagnosis.findings.candidates import Candidate, Step
 from hysteresis_bench.diagnosis.findings.stages import Stage

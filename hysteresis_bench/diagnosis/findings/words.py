@@ -11,7 +11,7 @@ from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
 from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
-from hysteresis_bench.diagnosis.families.finding import forms_of
+from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder, other_zero
 from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie

@@ -9,7 +9,7 @@ from scipy.signal import lfilter
 from hysteresis_bench import registry
 from hysteresis_bench.compose import System
 from hysteresis_bench.diagnosis.around import concluded, searched
-from hysteresis_bench.diagnosis.families.finding import course
+from hysteresis_bench.diagnosis.families import course
 from hysteresis_bench.diagnosis.findings.diagnosis_file import read_diagnosis, write_diagnosis
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.systems import Stack

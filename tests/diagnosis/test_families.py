@@ -5,7 +5,7 @@ from collections import namedtuple
 import pytest
 
 from hysteresis_bench import registry
-from hysteresis_bench.diagnosis.families.finding import FamilyFinding
+from hysteresis_bench.diagnosis.families import FamilyFinding
 
 
 @pytest.mark.parametrize("name", ["lags-before", "lags-after"])
