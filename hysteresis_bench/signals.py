@@ -80,6 +80,7 @@ class Record:
     units : of "time", "input", "output" and of any further column
     history : leading samples that are simulated but not scored
     steps : that are simulated from one sample to the next; the input between two samples is interpolated
+    input_error : RMS by which the input may still be off after it was smoothed, its unit
     All arrays are read-only. Raises UserError where time does not strictly increase: a rate has no value there.
     """
 
@@ -91,6 +92,7 @@ class Record:
     columns: Mapping[str, Array] = field(default_factory=dict)
     history: int = 0
     steps: int = 1
+    input_error: float = 0.0
 
     def __post_init__(self) -> None:
         _close(self, "time", "input", *(["output"] if self.output is not None else []))

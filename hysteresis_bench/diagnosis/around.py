@@ -37,7 +37,8 @@ from hysteresis_bench.signals import Dataset
 
 SMOOTHED = (
     "The input is measured with noise. It was smoothed by as much as its noise is (a smoothing spline), so that no "
-    "effect makes up for the noise; `predict` will leave more with inputs as measured."
+    "effect makes up for the noise; what that may still leave of it is taken for noise of the output. `predict` will "
+    "leave more with inputs as measured."
 )
 
 BETWEEN = (
@@ -127,7 +128,7 @@ def searched(dataset: Dataset, question: Question) -> Around:
         quiet = gather(smooth.views)
         # what is left of an input that is rough by itself passes for noise again
         again = found if quiet.noise.input_heard else search(smooth, quiet, question)
-        if explains_more(again.best, found.best):
+        if explains_more(again.best, found.best, found.selection.floor):
             prepared, found = smooth, again
     on_step(Step(f"{law}: what lies between the samples"))
     if few_samples(found):
@@ -143,11 +144,14 @@ def searched(dataset: Dataset, question: Question) -> Around:
     return Around(dataset, question, prepared, found)
 
 
-def explains_more(smooth: Hypothesis, found: Hypothesis) -> bool:
+def explains_more(smooth: Hypothesis, found: Hypothesis, floor: float) -> bool:
     """Does a smoother input leave less? Instead of effects, or of as many others, it may leave a little more: one that
-    takes the input's noise off as well also takes off what a spline leaves of it, or takes for noise."""
+    takes the input's noise off as well also takes off what a spline leaves of it, or takes for noise. Instead of
+    effects it may leave as much as the input's noise does by itself: all that were needed were sought again without it.
+
+    floor : with the noise of inputs as they were measured"""
     if claims(smooth) < claims(found):
-        return smooth.rmse < REACHED * found.rmse
+        return smooth.rmse < REACHED * max(found.rmse, floor)
     others = claims(smooth) == claims(found) and smooth.names != found.names
     return smooth.rmse < (ALIKE if others else 1.0) * found.rmse
 

@@ -173,14 +173,17 @@ def pooled_noise(parts: Sequence[Noise]) -> Noise:
 
 def unresolved(records: Sequence[Record]) -> float:
     """What the samples miss of the input between them, as an error of the output (RMS, unit of the output): MISSED
-    times the sag of a typical arc between two samples, by the ratio of the ranges."""
-    sags = []
+    times the sag of a typical arc between two samples, by the ratio of the ranges. And by how much a smoothed input may
+    be off, by the local slope."""
+    missed = []
     for record in records:
         u = record.input
         sag = float(np.median(np.abs(u[2:] - 2.0 * u[1:-1] + u[:-2]))) / 8.0 if u.size > 2 else 0.0
         sag /= record.steps**2
-        sags.append(sag * float(np.ptp(record.measured)) / (float(np.ptp(u)) or 1.0))
-    return MISSED * float(np.sqrt(np.mean(np.square(sags))))
+        sag *= MISSED * float(np.ptp(record.measured)) / (float(np.ptp(u)) or 1.0)
+        slope = _slope(record.time[record.scored], u[record.scored], record.measured, record.input_error)
+        missed.append(float(np.hypot(sag, record.input_error * slope)))
+    return float(np.sqrt(np.mean(np.square(missed))))
 
 
 def fast_noise(time: Array, values: Array, lag: int = 1) -> tuple[float, float]:

@@ -1,11 +1,14 @@
 """Smoothed inputs: as much is taken off as their noise has, and corners stay."""
 
+from dataclasses import replace
 from importlib import import_module
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.evidence.view import views_of
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.signals import Dataset, Record
@@ -32,6 +35,7 @@ def test_most_of_the_noise_is_taken_off(drive, uneven, share):
     left = smooth.input - true
     assert np.sqrt(np.mean(left**2)) < 0.5 * np.sqrt(np.mean(noise**2))
     assert np.max(np.abs(left)) < 4.0 * share
+    assert 0.6 < smooth.input_error / np.sqrt(np.mean(left**2)) < 1.4
 
 
 def test_an_input_without_noise_is_left_alone():
@@ -39,6 +43,18 @@ def test_an_input_without_noise_is_left_alone():
     for u in (sine(time), triangle(time), np.zeros(time.size)):
         record = Record(time, u, u)
         assert with_smooth_inputs([record]) == (record,)
+
+
+def test_what_smoothing_may_leave_is_in_the_floor():
+    rng, time = np.random.default_rng(2), np.linspace(0.0, 4.0, 800)
+    true = triangle(time)
+    output = 3.0 * true + 0.001 * rng.standard_normal(800)
+    records = with_smooth_inputs([Record(time, true + 0.01 * rng.standard_normal(800), output)])
+    left = output - 3.0 * records[0].input
+    floor = gather(views_of(records)).floor
+    assert 0.6 < floor / np.sqrt(np.mean(left**2)) < 1.4
+    exact = [replace(record, input_error=0.0) for record in records]
+    assert gather(views_of(exact)).floor < 0.5 * floor
 
 
 class Stop(Exception):
@@ -68,8 +84,14 @@ def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(mon
 
 
 @pytest.mark.parametrize(
-    ("names", "left", "taken"),
-    [("", 1.05, True), ("", 1.07, False), ("a", 1.01, True), ("a", 1.03, False), ("b", 0.99, True), ("b", 1.01, False)],
+    ("names", "left", "floor", "taken"),
+    [
+        *[("", 1.05, 0.5, True), ("", 1.07, 0.5, False), ("", 1.07, 1.02, True), ("", 1.07, 1.0, False)],
+        *[("a", 1.01, 0.5, True), ("a", 1.03, 2.0, False), ("b", 0.99, 0.5, True), ("b", 1.01, 2.0, False)],
+    ],
 )
-def test_a_smooth_input_may_leave_a_little_more_in_the_place_of_an_effect_and_less_of_another_one(names, left, taken):
-    assert import_module("hysteresis_bench.diagnosis.around").explains_more(fit(names, left), fit("b", 1.0)) == taken
+def test_a_smooth_input_may_leave_a_little_more_in_the_place_of_an_effect_and_less_of_another_one(
+    names, left, floor, taken
+):
+    module = import_module("hysteresis_bench.diagnosis.around")
+    assert module.explains_more(fit(names, left), fit("b", 1.0), floor) == taken
