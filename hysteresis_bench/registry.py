@@ -103,6 +103,11 @@ def names(kind: Kind) -> tuple[str, ...]:
     return tuple(sorted(_points()[kind]))
 
 
+def usable(kind: Kind) -> tuple[str, ...]:
+    """Names of those that can be loaded, sorted; `list` tells what is wrong with the others."""
+    return tuple(name for name in names(kind) if not load(kind, name).fault)
+
+
 def registered(kind: Kind) -> tuple[Plugin, ...]:
     """Every plugin, loaded, by name; all those that share one, each with its fault."""
     return tuple(_loaded(kind, name, point) for name in names(kind) for point in _points()[kind][name])

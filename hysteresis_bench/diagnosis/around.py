@@ -168,7 +168,7 @@ def concluded(around: Around, laws: Sequence[str], densities: Sequence[str] = ()
     # noise blames nobody, unless a curve without a formula was needed to come down to it; a law that predicts
     # clearly better shows that it is none, and what one excitation leaves may as well be the law's
     blameless = left.noise and not forms_of(stages.adopted) and found.thin.excitations.varied
-    witnesses = [] if blameless or not laws else of_few_parameters(registry.names("models"))
+    witnesses = [] if blameless or not laws else of_few_parameters(registry.usable("models"))
     doubted = doubt(found, question, laws, witnesses)
     if doubted.raised:
         known, found = found, answered(found, doubted, question.options)

@@ -34,7 +34,7 @@ def diagnose(dataset: Dataset, question: Question) -> Diagnosis:
     """
     dataset = question.in_wanted_units(without_faults(dataset))
     if question.model:
-        return concluded(searched(dataset, question), of_few_parameters(registry.names("models")))
+        return concluded(searched(dataset, question), of_few_parameters(registry.usable("models")))
     if question.settings or question.bounds or question.fixed:
         raise UserError("diagnose", "settings, bounds and fixed parameters are those of a model; name it.")
     laws = compare(dataset, question, effects_follow=True)

@@ -33,14 +33,14 @@ CALIBRATED = ("slow", "fast", "nested", "sweep")
 
 def can_make_data() -> tuple[str, ...]:
     """Names of the models that data can be made with: those that declare an example."""
-    loaded = {name: registry.load("models", name).loaded for name in registry.names("models")}
+    loaded = {name: registry.load("models", name).loaded for name in registry.usable("models")}
     return tuple(name for name, model in loaded.items() if getattr(model, "example", None))
 
 
 def can_be_hidden(model: Model) -> tuple[str, ...]:
     """Names of the effects that data of a model can hide: those that can be claimed and say how to hide them. Of
     those that act inside a law only what the model offers."""
-    known = {*model.offers, *(name for name in registry.names("effects") if not registry.load("effects", name).fault)}
+    known = {*model.offers, *registry.usable("effects")}
     effects = {name: registry.effect(name) for name in known - {*(model.example.without if model.example else ())}}
     return tuple(sorted(name for name, one in effects.items() if one.hidden_forms and not one.nuisance))
 

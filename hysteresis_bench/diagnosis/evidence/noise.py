@@ -181,8 +181,9 @@ def unresolved(records: Sequence[Record]) -> float:
         sag = float(np.median(np.abs(u[2:] - 2.0 * u[1:-1] + u[:-2]))) / 8.0 if u.size > 2 else 0.0
         sag /= record.steps**2
         sag *= MISSED * float(np.ptp(record.measured)) / (float(np.ptp(u)) or 1.0)
-        slope = _slope(record.time[record.scored], u[record.scored], record.measured, record.input_error)
-        missed.append(float(np.hypot(sag, record.input_error * slope)))
+        if off := record.input_error:
+            sag = float(np.hypot(sag, off * _slope(record.time[record.scored], u[record.scored], record.measured, off)))
+        missed.append(sag)
     return float(np.sqrt(np.mean(np.square(missed))))
 
 

@@ -15,10 +15,10 @@ from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder, other_zero
 from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
-from hysteresis_bench.diagnosis.search.fallback import Fallback
+from hysteresis_bench.diagnosis.search.fallback import was_or_were
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.diagnosis.search.selection import MISFIT
-from hysteresis_bench.fit.checks.advised import advice_with
+from hysteresis_bench.fit.checks.advised import advice_with, more_parts
 from hysteresis_bench.fit.checks.edges import edges_told
 from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.unseen.between_samples import TELLING, between_samples
@@ -213,39 +213,20 @@ def _times(outcome: Outcome) -> str:
     return f"{rounded(held_out)} times the noise on what was held out, and {rounded(fitted)} times on what was fitted"
 
 
-def _gave_up(fallback: Fallback, floor: float) -> str:
-    were, them = _were(fallback.dropped)
-    they = "it" if them == "it" else "they"
-    said = f"{listed(fallback.dropped)} had been selected and {were} given up:"
-    if not fallback.tested:
-        with_them, without = (f"{rounded(left / floor)} times the noise" for left in (fallback.selected, fallback.kept))
-        return (
-            f"{said} no part of what was fitted is an excitation of its own that could be left out to test {them}, and "
-            f"{they} may make up for the law, which leaves {with_them} with {them} and {without} without. Fit a second "
-            f"record, of another amplitude or speed."
-        )
-    worse = f" {listed(fallback.worse_on)} was predicted clearly worse with than without." if fallback.worse_on else ""
-    return (
-        f"{said} on what was left out of the fits in turn the RMSE (geometric mean) was {fallback.selected:.3g} with "
-        f"{them} and {fallback.kept:.3g} without (bare: {fallback.bare:.3g}).{worse}"
-    )
-
-
-def _were(names: Sequence[str]) -> tuple[str, str]:
-    return ("was", "it") if len(names) == 1 else ("were", "them")
-
-
 def warnings(outcome: Outcome) -> tuple[str, ...]:
     """What a user must know before believing the names."""
     found, final, after, floor = outcome.found, outcome.found.final, outcome.after, outcome.evidence.floor
     records = found.full.stack.records
     said = list(advice_with(found.full.stack.model, final.names, records))
     if found.given_up:
-        said.insert(0, _gave_up(found.given_up, floor))
+        said.insert(0, found.given_up.told(floor))
     if outcome.refuted and outcome.stand_ins:
-        were, them = _were(outcome.stand_ins)
+        were, them = was_or_were(outcome.stand_ins)
         selected = f"{listed(outcome.stand_ins)} {were} selected on what was fitted, and {were} not named"
-        said.insert(0, f"{selected}: what was held out is predicted worse with {them} than by the bare model.")
+        said.insert(
+            0,
+            f"{selected}: what was held out is predicted worse with {them} than by the bare model, which `fit` writes.",
+        )
     elif not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
     if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
@@ -255,7 +236,10 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             else "and the model's own law does not follow these data"
         )
         may = ". What is named may stand in for that" if outcome.doubted and outcome.named else ""
-        said.append(f"The final system still leaves {_times(outcome)}, {blamed}{may}.")
+        said += [
+            f"The final system still leaves {_times(outcome)}, {blamed}{may}.",
+            *more_parts(found.full.stack.model),
+        ]
     fitted, held_out = outcome.leaves
     if after.between > TELLING * max(floor, after.fitted.rmse):
         said.append(
@@ -277,8 +261,8 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     if steps > TELLING * floor:
         said.append(
             f"The samples are few for this law: finer steps between them change its response by {steps:.2g} (RMS), "
-            f"{rounded(steps / floor)} times the noise, and what is named may make up for that. Records with more "
-            "samples a cycle would tell."
+            f"{rounded(steps / floor)} times the noise. Effects may make up for that. Records with more samples a "
+            "cycle would tell."
         )
     if not found.follows:
         said.append("The output does not follow the input; whatever would fit it is no diagnosis.")

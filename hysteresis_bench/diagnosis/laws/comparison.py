@@ -100,7 +100,7 @@ def compare(dataset: Dataset, question: Question, *, effects_follow: bool = Fals
     found, out = structure(asked), judged(thin.records, seen)
     names, reasons = tuple(options.laws), dict[str, str]()
     if not names:
-        names = registry.names("models")
+        names = registry.usable("models")
         # branches of the data's own, judged on what they were not fitted to, do about as well as the best law
         reachable = max(floor, memory(asked).branch_rmse) * (1.0 if out.telling else REACHABLE)
         reasons = excluded(names, found, reachable, alone=not (question.effects or effects_follow))

@@ -18,9 +18,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from hysteresis_bench.data.units import rounded
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.hypotheses.fitter import Fitter
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.fit.unseen.advantage import CLEAR, advantage
 from hysteresis_bench.kernels.root_mean_square import rms
 
@@ -53,6 +55,29 @@ class Fallback:
             kept=later.kept,
             worse_on=tuple(dict.fromkeys((*self.worse_on, *later.worse_on))),
         )
+
+    def told(self, floor: float) -> str:
+        """A sentence;  floor : RMS of the noise"""
+        were, them = was_or_were(self.dropped)
+        they = "it" if them == "it" else "they"
+        said = f"{listed(self.dropped)} had been selected and {were} given up:"
+        if not self.tested:
+            with_them, without = (f"{rounded(left / floor)} times the noise" for left in (self.selected, self.kept))
+            return (
+                f"{said} no part of what was fitted is an excitation of its own that could be left out to test {them}, "
+                f"and {they} may make up for the law, which leaves {with_them} with {them} and {without} without. Fit "
+                "a second record, of another amplitude or speed."
+            )
+        worse = f" {listed(self.worse_on)} was predicted clearly worse with than without." if self.worse_on else ""
+        return (
+            f"{said} on what was left out of the fits in turn the RMSE (geometric mean) was {self.selected:.3g} with "
+            f"{them} and {self.kept:.3g} without (bare: {self.bare:.3g}).{worse}"
+        )
+
+
+def was_or_were(names: Sequence[str]) -> tuple[str, str]:
+    """The verb, and the pronoun, of so many."""
+    return ("was", "it") if len(names) == 1 else ("were", "them")
 
 
 Grown = Sequence[tuple[str, Hypothesis]]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import fields, is_dataclass, replace
 
 import numpy as np
 
@@ -21,6 +22,19 @@ def advice_with(model: Model, effects: Collection[str], records: Sequence[Record
     if not {*registry.OFFSETS}.isdisjoint(effects):
         records = [_without_offset(record) for record in records]
     return (*filter(None, map(jumps_told, records)), *model.advice(records))
+
+
+def more_parts(model: Model) -> list[str]:
+    """A sentence, where settings say how many parts the law is divided into, or steps are made, and may be doubled."""
+    assert is_dataclass(model)
+    settings = {one.name: getattr(model, one.name) for one in fields(model)}
+    asked = []
+    for name, count in settings.items():
+        with suppress(ValueError):
+            if type(count) is int and replace(model, **{name: 2 * count}):
+                asked.append(f"--set {name}={2 * count}")
+    told = f"This law is as fine as its settings say: `{' '.join(asked)}` may follow more closely what is left."
+    return [told] if asked else []
 
 
 def _without_offset(record: Record) -> Record:

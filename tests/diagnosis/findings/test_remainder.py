@@ -134,7 +134,10 @@ def of_own_noise(left, noises, significant=True):
     names = "slow", "fast", "third"
     rng = np.random.default_rng(7)
     views = [
-        Of(record=Of(name=name, input=np.linspace(0.0, 1.0, SAMPLES), measured=np.ones(1), steps=1), y=np.ones(1))
+        Of(
+            record=Of(name=name, input=np.linspace(0.0, 1.0, SAMPLES), measured=np.ones(1), steps=1, input_error=0.0),
+            y=np.ones(1),
+        )
         for name in names
     ]
     for view, noise in zip(views, noises, strict=True):
@@ -167,7 +170,7 @@ def test_a_record_is_not_singled_out_where_all_are_alike(left, noises):
 
 def test_a_few_samples_that_are_far_off_are_no_fault_of_a_record():
     rng = np.random.default_rng(3)
-    record = Of(name="slow", input=np.linspace(0.0, 1.0, SAMPLES), measured=np.ones(1), steps=1)
+    record = Of(name="slow", input=np.linspace(0.0, 1.0, SAMPLES), measured=np.ones(1), steps=1, input_error=0.0)
     part = rng.standard_normal(SAMPLES)
     part[::100] += 40.0
     whole = Of(tests=[Of(record="slow", name="noise-floor", significant=True)], fitted=Of(rmse=1.0))

@@ -1,6 +1,6 @@
 """The headline of a diagnosis: every reason once."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from types import SimpleNamespace as Of
 
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement
@@ -11,6 +11,16 @@ from hysteresis_bench.diagnosis.findings.words import Outcome, headline, warning
 from hysteresis_bench.diagnosis.search.fallback import Fallback
 
 
+@dataclass(frozen=True)
+class Silent:
+    """A law without advice."""
+
+    parts: int = 4
+
+    def advice(self, records):
+        return ()
+
+
 def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_before=None, **more):
     """held_out_before : as `held_out` where None;  more : of the search's findings"""
     held = None if held_out is None else Of(rmse=held_out)
@@ -19,7 +29,7 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
     bare = replace_held_out(stage, held_out_before) if held_out_before else stage
     evidence = Of(noise=Of(floor=0.1), floor=0.1)
     final = Of(names=frozenset(), at_bound=(), values={})
-    full = Of(stack=Of(records=(), model=Of(advice=lambda _: ())))
+    full = Of(stack=Of(records=(), model=Silent()))
     return Outcome(
         before=bare,
         after=stage,
@@ -103,6 +113,7 @@ def test_what_no_black_box_finds_either_is_not_blamed_on_the_law_alone():
     causes = "slow noise, noise of the input, a cause that was not measured, or the law's own fault"
     assert f"no black box does clearly better: what is left may be {causes}." in headline(silent)
     assert f"a black box finds nothing in the input's past: {causes}." in " ".join(warnings(silent))
+    assert "`--set parts=8` may follow more closely what is left." in " ".join(warnings(silent))
     assert "does not follow" not in headline(silent) + " ".join(warnings(silent))
 
 
