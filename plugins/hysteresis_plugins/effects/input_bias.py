@@ -22,13 +22,6 @@ def _constant(inner: Response, u: Array, hiding: Hiding) -> Array:
     return inner(u + 0.2 * hiding.strength * hiding.amplitude * np.sign(hiding.random[0] - 0.5))
 
 
-def _switched_on(inner: Response, u: Array, hiding: Hiding) -> Array:
-    """A field that was there when the device was at rest, and which the drive adds to."""
-    field = (0.05 + 0.1 * hiding.strength) * hiding.amplitude * (1 if hiding.random[0] > 0.5 else -1)
-    rise = np.linspace(0.0, 1.0, 50)
-    return inner(np.concatenate([field * rise, u + field]))[rise.size :]
-
-
 @dataclass(frozen=True)
 class InputBias(Effect):
     """One constant that acts beside the input: v = u + offset, the model sees v.
@@ -45,7 +38,7 @@ class InputBias(Effect):
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "asymmetry": "both let one sign of the input reach further than the other",
     }
-    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_constant, _switched_on)
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_constant,)
     parameters = (Parameter("offset", -0.5, 0.5, "{input}", null=0.0, meaning="that acts beside the input"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
