@@ -73,6 +73,7 @@ class BoucWenGeneralized(Model):
             "F_y": 1.5,
         },
         stream=11,
+        without=("input-bias",),
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:

@@ -77,6 +77,7 @@ class Chaboche(Model):
             "E": 1.2,
         },
         stream=18,
+        without=("input-bias",),
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:

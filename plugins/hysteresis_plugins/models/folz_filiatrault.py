@@ -54,6 +54,7 @@ class FolzFiliatrault(Model):
         4.0,
         {"u_y": 0.6, "r_1": 0.05, "r_3": 1.2, "f_I": 0.1, "r_4": 0.3, "alpha": 0.6, "beta": 1.05, "F_0": 1.5},
         stream=20,
+        without=("input-bias",),
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:

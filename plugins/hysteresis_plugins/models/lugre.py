@@ -54,6 +54,7 @@ class Lugre(Model):
         4.0,
         {"distance": 0.8, "stiction": 1.3, "v_s": 8.0, "slope": 0.4, "F_C": 1.5, "sigma_1": 0.003, "sigma_2": 0.004},
         stream=10,
+        without=("input-bias",),
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:

@@ -66,6 +66,7 @@ class MaxwellSlip(Model):
         4.0,
         {"radius": 2.0, "gap": 0.0, "slope": 0.3, **{name: 0.5 / k for k, name in enumerate(named("k", 8), 1)}},
         stream=8,
+        without=("input-bias",),
     )
 
     elements: int = 8

@@ -69,6 +69,7 @@ class Pinching(Model):
             "F_0": 1.5,
         },
         stream=21,
+        without=("input-bias",),
     )
 
     def simulate(self, signal: Signal, p: Any) -> Array:

@@ -54,7 +54,10 @@ class PrandtlIshlinskii(Model):
     properties = ("rate-independent", "odd", "masing", "return-point", "congruent")
     offers = OFFERS
     example = Example(
-        4.0, {"radius": 4.0, "slope": 0.6, **{name: 0.3 / k for k, name in enumerate(named("w", 12), 1)}}, stream=5
+        4.0,
+        {"radius": 4.0, "slope": 0.6, **{name: 0.3 / k for k, name in enumerate(named("w", 12), 1)}},
+        stream=5,
+        without=("input-bias",),
     )
 
     plays: int = 12
