@@ -209,6 +209,8 @@ def ask(title: str, effects: Mapping[str, Form]) -> None:
     parser.add_argument("--seed", type=int, default=5)
     parser.add_argument("--jobs", type=int, default=1)
     told = parser.parse_args()
+    if unknown := {*told.effects.split(",")} - {*effects}:
+        parser.error(f"no effect {', '.join(sorted(unknown))}; there are {', '.join(effects)}")
     rows = []
     with ProcessPoolExecutor(told.jobs) as pool:
         asked = [(law, effect) for law in told.laws.split(",") for effect in told.effects.split(",")]

@@ -70,22 +70,18 @@ class JilesAtherton(Model):
         """Log-scaled, from the largest |input| and |output|, or the output's span where that is less; c is held to its
         physical range, up to 1.
 
-        alpha M_s, the field of the magnetization itself, reaches the applied field at the largest M, to either side:
-        linear, as a demagnetizing field, of an open or gapped magnetic circuit, takes its factor off alpha.
+        alpha M_s, the field of the magnetization itself, reaches the applied field at the largest M.
         """
         H = max(float(np.max(np.abs(record.input))) for record in records) or 1.0
         M = largest_output(records) / (4e-7 * np.pi) or 1.0
         bounds = {
+            "alpha": (1e-4 * H / M, H / M),
             "a": (1e-2 * H, 1e1 * H),
             "k": (1e-3 * H, 1e1 * H),
             "M_s": (0.5 * M, 2e1 * M),
             "c": (1e-2, 1.0),
         }
-        alpha, *others = self.parameters
-        return (
-            alpha.within(-H / M, H / M, scaling="linear"),
-            *(p.within(*bounds[p.name], scaling="log") for p in others),
-        )
+        return tuple(p.within(*bounds[p.name], scaling="log") for p in self.parameters)
 
     def advice(self, records: Sequence[Record]) -> tuple[str, ...]:
         u = np.concatenate([record.input[record.scored] for record in records])

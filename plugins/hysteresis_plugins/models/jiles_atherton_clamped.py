@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import ClassVar
 
 from hysteresis_bench.contracts import Example
+from hysteresis_bench.parameters import Parameter
+from hysteresis_bench.signals import Record
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
 
 
@@ -21,3 +24,9 @@ class JilesAthertonClamped(JilesAtherton):
     clamped: ClassVar[bool] = True
     senses: ClassVar[tuple[int, ...]] = (1,)
     example = Example(5000.0, {"alpha": 3e-4, "a": 1100.0, "k": 900.0, "M_s": 1.3e6, "c": 0.2}, stream=3)
+
+    def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
+        """That of `jiles-atherton`, but that alpha is linear and of either sign: a demagnetizing field, of an open or
+        gapped magnetic circuit, takes its factor off alpha."""
+        alpha, *others = super().box(records)
+        return (alpha.within(-alpha.upper, alpha.upper, scaling="linear"), *others)

@@ -12,6 +12,7 @@ from hysteresis_bench.contracts import Effect, Example
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models.jiles_atherton import JilesAtherton
+from hysteresis_plugins.models.jiles_atherton_clamped import JilesAthertonClamped
 
 
 @dataclass(frozen=True)
@@ -39,5 +40,5 @@ class JilesAthertonPinning(JilesAtherton):
         return jiles_atherton_pinning(signal.input, p.alpha, p.a, p.k, p.M_s, p.c, p.kappa)
 
     def box(self, records: Sequence[Record]) -> tuple[Parameter, ...]:
-        """That of `jiles-atherton`; kappa as it is."""
-        return (*JilesAtherton().box(records), self.parameters[-1])
+        """That of `jiles-atherton-clamped`; kappa as it is."""
+        return (*JilesAthertonClamped().box(records), self.parameters[-1])
