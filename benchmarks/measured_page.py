@@ -168,6 +168,9 @@ def _known() -> Bullets:
             "The round corners of pinching were added after the error of the timber wall was known.",
             "That a drift may act on the piezo stack, whose records drift by some 0.01 µm/s, was said after its error "
             "was known; it stays as the law then predicts better what was left out of its fit.",
+            "That the rocking wall's bend loses force with the way on its side, that the coupon of growing cycles bows "
+            "under compression, and that the displacement of the pneumatic cylinder is recorded late was seen in these "
+            "devices, their held-out parts included; only the parameters are blind.",
             "Curves of input and output of the shape memory alloy were asked for after it was seen that laws with them "
             "predict what is held out better.",
         ]
