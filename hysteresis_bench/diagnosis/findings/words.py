@@ -229,7 +229,9 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         )
     elif not outcome.carries_over:
         said.insert(0, "What was adopted does not carry over to the held-out records: do not believe the names.")
-    if found.follows and not outcome.reaches and (outcome.doubted or outcome.doubt.agreement):
+    # a zero that lies elsewhere is no fault of a law that follows what was fitted
+    followed = outcome.reaches or (outcome.leaves[0] <= MISFIT and other_zero(after, floor, ""))
+    if found.follows and not followed and (outcome.doubted or outcome.doubt.agreement):
         blamed = (
             f"of which a black box finds nothing in the input's past: {CAUSES}"
             if found.ceiling.finds_nothing

@@ -207,3 +207,12 @@ def test_what_one_excitation_shows_far_from_the_noise_is_no_name():
     assert alone.named == ()
     assert alone.stand_ins == ("creep",)
     assert headline(alone).startswith("No effect is named, as what helps may be the law's own")
+
+
+def test_a_zero_that_lies_elsewhere_is_not_blamed_on_the_law():
+    missed = outcome_of(("creep",), {}, rmse=0.11, held_out=0.4)
+    said = " ".join(warnings(missed))
+    assert "the model's own law does not follow these data" in said
+    elsewhere = replace(missed, after=Of(**{**vars(missed.after), "constant": 0.38}))
+    assert "own law does not follow" not in " ".join(warnings(elsewhere))
+    assert "Of that 0.38 um is a constant" in headline(elsewhere)
