@@ -48,7 +48,7 @@ class LateInput(Effect):
     """
 
     acts = "output"
-    family = "dynamics after the law"
+    family = "dynamics before the law"
     affine = True
     mistaken_for: ClassVar[Mapping[str, str]] = {
         "viscous-damping": "a response that is a little ahead has a part that goes with its rate",
