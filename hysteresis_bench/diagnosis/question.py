@@ -89,8 +89,8 @@ class Question:
         What is only in question is left to tell that it does not apply. Raises UserError."""
         if asked_faults(self.model, self.settings, self.effects) if self.model else around_faults("", self.effects):
             return dataset  # `check` tells them
-        for name in registry.names("effects"):
-            if name not in self.effects and not registry.load("effects", name).fault:
+        for name in registry.usable("effects"):
+            if name not in self.effects:
                 with suppress(UserError):
                     dataset = in_wanted_units(dataset, [registry.effect(name)], f"{name}'s")
         around = [registry.effect(name) for name in self.effects]

@@ -116,8 +116,8 @@ class Stack:
 
     def free_forms(self) -> tuple[str, ...]:
         """Names of the free forms that can be tried."""
-        known = [name for name in sorted(registry.names("effects")) if not registry.load("effects", name).fault]
-        known = [name for name in known if isinstance(self.effect(name), FreeForm) and name not in self.own]
+        usable = registry.usable("effects")
+        known = [name for name in usable if isinstance(self.effect(name), FreeForm) and name not in self.own]
         return tuple(name for name in known if not self._inapplicable(name) and self._solvable(name))
 
     def _inapplicable(self, name: str) -> str:
