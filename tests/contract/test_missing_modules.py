@@ -5,10 +5,12 @@ import pytest
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.diagnose import diagnose
+from hysteresis_bench.diagnosis.hypotheses.systems import Stack
+from hysteresis_bench.diagnosis.laws.surroundings import curves, drifts
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
 from hysteresis_bench.diagnosis_study.hidden_effects import can_be_hidden, can_make_data
 from hysteresis_bench.signals import Dataset, Record
-from tests.conftest import forget_plugins
+from tests.conftest import forget_plugins, record
 
 POINTS = "".join(f"[hysteresis_bench.{kind}]\ngone-away = gone_away:Gone\n" for kind in ("models", "effects"))
 
@@ -31,7 +33,11 @@ def test_it_is_known_and_not_usable():
         assert "gone-away" in registry.names(kind)
         assert {*registry.names(kind)} - {*registry.usable(kind)} == {"gone-away"}
     assert "gone-away" not in can_make_data()
-    assert "gone-away" not in can_be_hidden(registry.build("models", "bouc-wen"))
+    model = registry.build("models", "bouc-wen")
+    assert "gone-away" not in can_be_hidden(model)
+    stack = Stack(model, (record(), record()))
+    assert "gone-away" not in {*drifts(stack), *curves(stack), *stack.candidates()[0]}
+    assert stack.candidates()[1]["gone-away"].startswith("broken: ")
 
 
 def test_a_diagnosis_around_another_model_ends():

@@ -19,7 +19,7 @@ SHAPES = ("curve of the input", "curve of the output", "curve beside the law", "
 
 def drifts(stack: Stack) -> list[str]:
     """What is estimated anew on every record beside its offset, and describes no effect."""
-    names = [name for name in sorted(registry.names("effects")) if name not in registry.OFFSETS]
+    names = [name for name in registry.usable("effects") if name not in registry.OFFSETS]
     effects = {name: stack.effect(name) for name in names}
     asked = {name: one for name, one in effects.items() if one.nuisance and one.estimates}
     return [name for name, effect in asked.items() if not effect.inapplicable(stack.records)]
