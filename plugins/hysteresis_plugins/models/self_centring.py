@@ -36,8 +36,8 @@ class SelfCentring(Model):
 
     Ours: slopes of their own on either side, a rounded yielding, and a bend that loses force with the largest way on
     its side, as where toes are crushed or tendons yield: of a measured wall a law of the ways on both sides together
-    predicts 3850 N where this one predicts 2290. z = 0 and M = 0 at the first sample. The constant is the effect bias,
-    or record-offset.
+    predicted to 2880 N, this one to 2320 (prototypes). z = 0 and M = 0 at the first sample. The constant is the effect
+    bias, or record-offset.
     """
 
     parameters = (
