@@ -1,4 +1,4 @@
-"""Many small quadratic problems with bounds at once: the steps of a bounded least-squares descent.
+"""Small quadratic problems with bounds: the steps of a bounded least-squares descent.
 
 Block principal pivoting [1]: every coordinate is free, or at one of its bounds; all that contradict the optimality
 conditions change sides at once, and where that no longer helps, only the last of them, which cannot cycle [2].
@@ -11,6 +11,7 @@ conditions change sides at once, and where that no longer helps, only the last o
 from __future__ import annotations
 
 import numpy as np
+from numba import njit
 
 from hysteresis_bench.arrays import Array
 
@@ -18,6 +19,10 @@ PATIENCE = 3
 """Exchanges of whole blocks without progress before single ones follow, as in [1]."""
 EXCHANGES = 100
 """At most so many for each coordinate; rounding may keep a coordinate of no slope between its sides for ever."""
+ROUNDED = 1e-16
+"""Share of a matrix's diagonal below which what elimination leaves of it is rounding."""
+
+FREE, AT_LOW, AT_HIGH = 0, 1, 2
 
 
 def bounded_steps(matrices: Array, descents: Array, low: Array, high: Array) -> Array:
@@ -26,51 +31,90 @@ def bounded_steps(matrices: Array, descents: Array, low: Array, high: Array) -> 
     matrices : A, (problems, d, d), symmetric and positive definite;  descents : b, (problems, d)
     low, high : (problems, d), low <= 0 <= high
     """
-    steps = np.linalg.solve(matrices, descents[..., None])[..., 0]
-    out = np.flatnonzero(((steps < low) | (steps > high)).any(axis=1))  # most steps meet no bound, and are done
-    if out.size:
-        steps[out] = _pivoted(matrices[out], descents[out], low[out], high[out])
+    A, b, least, most = map(np.ascontiguousarray, (matrices, descents, low, high))
+    steps = np.empty(b.shape)
+    _pivoted(A, b, least, most, steps)
     return np.clip(steps, low, high)
 
 
-def _pivoted(matrices: Array, descents: Array, low: Array, high: Array) -> Array:
-    """As `bounded_steps`, by exchanging sides; but for rounding within the bounds."""
-    problems, dimension = descents.shape
-    at_low, at_high = np.zeros((2, problems, dimension), dtype=bool)
-    fewest, patience = np.full(problems, dimension + 1), np.full(problems, PATIENCE)
-    steps = np.zeros((problems, dimension))
-    open_ = np.arange(problems) if dimension else np.arange(0)
-    for _ in range(EXCHANGES * dimension):
-        lower, upper = at_low[open_], at_high[open_]
-        part, slopes = _with_sides(matrices[open_], descents[open_], low[open_], high[open_], lower, upper)
-        steps[open_] = part
-        free = ~(lower | upper)
-        below, above = free & (part < low[open_]), free & (part > high[open_])
-        released = lower & (slopes > 0.0) | upper & (slopes < 0.0)
-        wrong = below | above | released
-        count = wrong.sum(axis=1)
-        fell = count < fewest[open_]
-        fewest[open_] = np.minimum(fewest[open_], count)
-        patience[open_] = np.where(fell, PATIENCE, patience[open_] - 1)
-        single = patience[open_] < 0
-        last = dimension - 1 - np.argmax(wrong[:, ::-1], axis=1)
-        wrong &= ~single[:, None] | (np.arange(dimension) == last[:, None])
-        at_low[open_] = np.where(wrong, below, lower)
-        at_high[open_] = np.where(wrong, above, upper)
-        open_ = open_[count > 0]
-        if not open_.size:
-            break
-    return steps
+@njit(cache=True, error_model="numpy")
+def _pivoted(matrices: Array, descents: Array, low: Array, high: Array, steps: Array) -> None:
+    """As `bounded_steps`, into steps; but for rounding within the bounds."""
+    dimension = descents.shape[1]
+    sides, better, free = np.empty((3, dimension), dtype=np.int64)
+    factors, spare = np.empty((dimension, dimension)), np.empty((2, dimension))
+    for problem in range(descents.shape[0]):
+        A, b, least, most, s = matrices[problem], descents[problem], low[problem], high[problem], steps[problem]
+        sides[:] = FREE
+        fewest, patience = dimension + 1, PATIENCE
+        for _ in range(EXCHANGES * dimension):
+            _solved(A, b, least, most, sides, s, free, factors, spare)
+            count, last = _contradicted(A, b, least, most, sides, s, better)
+            if count == 0:
+                break
+            patience = PATIENCE if count < fewest else patience - 1
+            fewest = min(fewest, count)
+            for k in range(last if patience < 0 else 0, last + 1):
+                sides[k] = better[k]
 
 
-def _with_sides(
-    matrices: Array, descents: Array, low: Array, high: Array, at_low: Array, at_high: Array
-) -> tuple[Array, Array]:
-    """The steps with some coordinates at their bounds, and the descents b - A s that are left there."""
-    held = at_low | at_high
-    bounds = np.where(at_low, low, np.where(at_high, high, 0.0))
-    right = np.where(held, bounds, descents - np.einsum("nij,nj->ni", matrices, bounds))
-    inner = np.where(held[:, :, None] | held[:, None, :], 0.0, matrices)
-    inner[:, np.arange(held.shape[1]), np.arange(held.shape[1])] += held
-    steps = np.linalg.solve(inner, right[..., None])[..., 0]
-    return steps, np.where(held, descents - np.einsum("nij,nj->ni", matrices, steps), 0.0)
+@njit(cache=True, error_model="numpy")
+def _contradicted(
+    A: Array, b: Array, low: Array, high: Array, sides: Array, s: Array, better: Array
+) -> tuple[int, int]:
+    """Into better the sides that the conditions of optimality want -> how many are others, the last of them."""
+    count, last = 0, 0
+    for k in range(sides.size):
+        side = sides[k]
+        if side == FREE:
+            better[k] = AT_LOW if s[k] < low[k] else (AT_HIGH if s[k] > high[k] else FREE)
+        else:
+            slope = b[k]
+            for j in range(sides.size):
+                slope -= A[k, j] * s[j]
+            better[k] = FREE if (slope > 0.0 if side == AT_LOW else slope < 0.0) else side
+        if better[k] != side:
+            count, last = count + 1, k
+    return count, last
+
+
+@njit(cache=True, error_model="numpy", fastmath={"contract"})
+def _solved(
+    A: Array, b: Array, low: Array, high: Array, sides: Array, s: Array, free: Array, factors: Array, spare: Array
+) -> None:
+    """The steps with some coordinates at their bounds: of the others A = L D L^T, where every row is eliminated from
+    all below it at once, so that loops over columns are vectorised. free, factors, spare : overwritten"""
+    right, column = spare
+    count = 0
+    for k in range(sides.size):
+        if sides[k] == FREE:
+            free[count] = k
+            count += 1
+        else:
+            s[k] = low[k] if sides[k] == AT_LOW else high[k]
+    for row in range(count):
+        k = free[row]
+        total = b[k]
+        for j in range(sides.size):
+            total -= A[k, j] * s[j] if sides[j] != FREE else 0.0
+        right[row] = total
+        for place in range(row + 1):
+            factors[row, place] = A[k, free[place]]
+    for pivot in range(count):
+        k = free[pivot]
+        below = max(factors[pivot, pivot], ROUNDED * A[k, k])
+        factors[pivot, pivot] = below
+        for row in range(pivot + 1, count):
+            column[row] = factors[row, pivot]
+        for row in range(pivot + 1, count):
+            share = column[row] / below
+            right[row] -= share * right[pivot]
+            factors[row, pivot] = share
+            for place in range(pivot + 1, row + 1):
+                factors[row, place] -= share * column[place]
+    for row in range(count):
+        right[row] /= factors[row, row]
+    for row in range(count - 1, -1, -1):
+        s[free[row]] = right[row]
+        for place in range(row):
+            right[place] -= factors[row, place] * right[row]
