@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import namedtuple
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import pairwise
@@ -64,29 +64,34 @@ class System:
 
     def simulate(self, signal: Signal, values: Array) -> Array:
         """values : (dimension, swarm), in units -> (samples, swarm)."""
-        return self._wrapped(len(self.effects), signal, self._with_fixed(values))
+        return self._wrapped(len(self.effects), signal, self._swarm(values))
 
     def model_values(self, values: Array) -> Any:
         """The model's own, as it takes them: a namedtuple of (swarm,) arrays."""
-        return self._own(0, self._with_fixed(values))
+        return self._swarm(values).own(0)
 
     def respond(self, record: Record, values: Array) -> Array:
         """The simulated output of a record, with what its nuisances estimate from it: (samples, swarm)."""
-        return self.adjusted(record.at_samples(self.simulate(record.signal, values)), record, values)
+        return next(self.responses([record], values))
+
+    def responses(self, records: Iterable[Record], values: Array) -> Iterator[Array]:
+        """As `respond`, of every record."""
+        swarm = self._swarm(values)
+        for record in records:
+            simulated = self._wrapped(len(self.effects), record.signal, swarm)
+            yield self._adjusted(record.at_samples(simulated), record, swarm)
 
     def adjusted(self, simulated: Array, record: Record, values: Array) -> Array:
         """What was simulated at the samples of a record, with what the nuisances estimate from it: (samples, swarm)."""
-        for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
-            simulated = effect.adjust(simulated, record, p)
-        return simulated
+        return self._adjusted(simulated, record, self._swarm(values))
 
     def offsets(self, record: Record, values: Array) -> list[Array]:
         """The constant that each effect adds to a record's output, (swarm,) an effect, in their order."""
         simulated = record.at_samples(self.simulate(record.signal, values))
-        found = []
-        for (_, effect), p in zip(self.effects, self._named(values)[1:], strict=True):
-            found.append(effect.offset(simulated, record, p))
-            simulated = effect.adjust(simulated, record, p)
+        swarm, found = self._swarm(values), []
+        for position, (_, effect) in enumerate(self.effects, start=1):
+            found.append(effect.offset(simulated, record, swarm.own(position)))
+            simulated = effect.adjust(simulated, record, swarm.own(position))
         return found
 
     @cached_property
@@ -134,37 +139,30 @@ class System:
             if name in self.model.offers
         }
 
-    def _wrapped(self, depth: int, signal: Signal, full: Array) -> Array:
-        """The model in its innermost `depth` effects; full : (dimension, swarm), the fixed values too."""
+    def _adjusted(self, simulated: Array, record: Record, swarm: _Swarm) -> Array:
+        for position, (_, effect) in enumerate(self.effects, start=1):
+            simulated = effect.adjust(simulated, record, swarm.own(position))
+        return simulated
+
+    def _wrapped(self, depth: int, signal: Signal, swarm: _Swarm) -> Array:
+        """The model in its innermost `depth` effects."""
         if depth == 0:
-            response: Array = self.model.simulate(signal, self._own(0, full))
+            response: Array = self.model.simulate(signal, swarm.own(0))
             return response
         _, effect = self.effects[depth - 1]
-        return effect.apply(lambda acting: self._once(depth - 1, acting, full), signal, self._own(depth, full))
+        return effect.apply(lambda acting: self._once(depth - 1, acting, swarm), signal, swarm.own(depth))
 
-    def _once(self, depth: int, signal: Signal, full: Array) -> Array:
+    def _once(self, depth: int, signal: Signal, swarm: _Swarm) -> Array:
         """The same, columns that differ only further out simulated once: most of the forward differences, and of the
         starts, of an effect on the output."""
-        from hysteresis_bench.kernels.distinct_columns import distinct_columns
+        if signal.input.shape[1] > 1:
+            return self._wrapped(depth, signal, swarm)
+        distinct, place = swarm.distinct(depth)
+        found = self._wrapped(depth, signal, distinct)
+        return found if distinct is swarm else found.take(place, axis=1)
 
-        if signal.input.shape[1] > 1 or full.shape[1] == 1:
-            return self._wrapped(depth, signal, full)
-        first, place = distinct_columns(full, self._rows_within[depth])
-        if first.size > MOSTLY * place.size:
-            return self._wrapped(depth, signal, full)
-        return self._wrapped(depth, signal, np.ascontiguousarray(full[:, first])).take(place, axis=1)
-
-    def _named(self, values: Array) -> list[Any]:
-        """The values of the model and of every effect, a namedtuple of (swarm,) arrays each."""
-        full = self._with_fixed(values)
-        return [self._own(position, full) for position in range(len(self._stack))]
-
-    def _own(self, position: int, full: Array) -> Any:
-        """Of the model, at 0, or of an effect, innermost first."""
-        named = self._namedtuples[position](*full[self._rows[position]])
-        if position or not self._inside:
-            return named
-        return self._model_values(*named, *(self._own(inside, full) for inside in self._inside.values()))
+    def _swarm(self, values: Array) -> _Swarm:
+        return _Swarm(self, self._with_fixed(values))
 
     def _with_fixed(self, values: Array) -> Array:
         if not self.fixed:
@@ -180,6 +178,47 @@ class System:
             for parameter in group
         ]
         return tuple(parameter for parameter in named if parameter.name not in self.fixed)
+
+
+class _Swarm:
+    """Values of a swarm, the fixed ones too, cut for the parts of a system: once for all records.
+
+    full : (dimension, swarm)
+    """
+
+    def __init__(self, system: System, full: Array) -> None:
+        self._system, self._full = system, full
+        self._own: dict[int, Any] = {}
+        self._distinct: dict[int, tuple[_Swarm, Array]] = {}
+
+    def own(self, position: int) -> Any:
+        """Of the model, at 0, or of an effect, innermost first: a namedtuple of (swarm,) arrays."""
+        if position not in self._own:
+            self._own[position] = self._cut(position)
+        return self._own[position]
+
+    def _cut(self, position: int) -> Any:
+        system = self._system
+        named = system._namedtuples[position](*self._full[system._rows[position]])
+        if position or not system._inside:
+            return named
+        return system._model_values(*named, *map(self.own, system._inside.values()))
+
+    def distinct(self, depth: int) -> tuple[_Swarm, Array]:
+        """Columns in which the model in so many effects differs, and which of them every column is; itself, where
+        that would spare little."""
+        if depth not in self._distinct:
+            self._distinct[depth] = self._found(depth)
+        return self._distinct[depth]
+
+    def _found(self, depth: int) -> tuple[_Swarm, Array]:
+        from hysteresis_bench.kernels.distinct_columns import distinct_columns
+
+        swarm = self._full.shape[1]
+        first, place = distinct_columns(self._full, self._system._rows_within[depth])
+        if swarm == 1 or first.size > MOSTLY * swarm:
+            return self, place
+        return _Swarm(self._system, np.ascontiguousarray(self._full[:, first])), place
 
 
 @lru_cache

@@ -82,9 +82,9 @@ class Problem:
         return min(MOST_BLOCK, max(LEAST_BLOCK, BLOCK_BYTES // (8 * longest)))
 
     @cached_property
-    def _measured(self) -> tuple[tuple[Record, slice, Array], ...]:
-        """Every record with what of it is scored, cut once: that takes as long as a short simulation."""
-        return tuple((record, record.scored, record.measured) for record in self.records)
+    def _measured(self) -> tuple[tuple[slice, Array], ...]:
+        """What of every record is scored, cut once: that takes as long as a short simulation."""
+        return tuple((record.scored, record.measured) for record in self.records)
 
     def squares(self, points: Array) -> Array:
         """Sum of squared errors over all scored samples; points : (dimension, swarm) in the unit box."""
@@ -95,9 +95,10 @@ class Problem:
         for first in range(0, values.shape[1], self.block):
             columns = slice(first, first + self.block)
             part = np.ascontiguousarray(values[:, columns])
+            responses = self.system.responses(self.records, part)
             squares = (
-                sum_of_squares(self.system.respond(record, part)[scored], measured)
-                for record, scored, measured in self._measured
+                sum_of_squares(simulated[scored], measured)
+                for simulated, (scored, measured) in zip(responses, self._measured, strict=True)
             )
             total[columns] = reduce(np.add, squares)
         return total
@@ -121,10 +122,10 @@ class Problem:
         for first in range(0, values.shape[1], block):
             columns = slice(first, first + block)
             part, row = np.ascontiguousarray(values[:, columns]), 0
-            for record in self.records:
-                simulated = self.system.respond(record, part)[record.scored]
-                rows = slice(row, row := row + record.measured.size)
-                residuals_into(joined[rows, columns], simulated, record.measured, limit)
+            responses = self.system.responses(self.records, part)
+            for simulated, (scored, measured) in zip(responses, self._measured, strict=True):
+                rows = slice(row, row := row + measured.size)
+                residuals_into(joined[rows, columns], simulated[scored], measured, limit)
         return joined
 
 
