@@ -31,7 +31,7 @@ class View:
 
     def heard_in(self, residuals: Array) -> View:
         """With the noise that is left beside a model.  residuals : (scored samples,)"""
-        return replace(self, noise=noise_left(self.noise, self.time, residuals))
+        return replace(self, noise=noise_left(self.noise, self.record, residuals))
 
     @property
     def time(self) -> Array:

@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.evidence.noise import (
     pooled_noise,
     unresolved,
 )
+from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.signals import Record
 
 TIME = np.arange(4000) / 1000.0
@@ -178,3 +179,26 @@ def test_piezo_sensor(real_data: Path) -> None:
     for file in ("full_amplitude_1Hz.csv", "modulated_1Hz_ramp_down.csv"):
         record = read_data([real_data / "piezo-picma-ntu" / file]).records[0]
         assert noise(record).rms == pytest.approx(0.065, rel=0.2)
+
+
+@pytest.mark.parametrize("quantum", [0.0, 0.02])
+@pytest.mark.parametrize("seed", range(4))
+def test_a_converter_at_its_end_is_silent_there_and_nowhere_else(seed, quantum):
+    """More than half of the samples are at an end: the median difference is 0 there, and the noise was told as 0."""
+    true = 8.0 * np.sin(2 * np.pi * 5 * TIME)
+    noisy = true + 0.05 * np.random.default_rng(seed).normal(size=TIME.size)
+    y = np.clip(np.rint(noisy / quantum) * quantum if quantum else noisy, -4.0, 4.0)
+    clipped = np.mean(np.abs(y) == 4.0)
+    assert clipped > 0.6
+    record = Record(TIME, INPUTS["sweep"], y)
+    expected = 0.05 * np.sqrt(1.0 - clipped)
+    assert noise(record).rms == pytest.approx(expected, rel=0.15)
+    left = y - np.clip(true, -4.0, 4.0)
+    assert View.of(record).heard_in(left).noise.rms == pytest.approx(expected, rel=0.15)
+
+
+def test_a_coarse_output_that_rests_at_its_peaks_is_not_at_an_end():
+    """Equal values are as usual between the peaks as at them."""
+    y = np.rint(loop(INPUTS["sweep"][:800]))
+    whole = noise(Record(TIME[:800], INPUTS["sweep"][:800], y))
+    assert whole.rms == pytest.approx(1.0 / np.sqrt(12.0), rel=0.01)
