@@ -190,6 +190,17 @@ def test_a_scale_that_changes_halfway_is_told_and_no_zero_that_does(scale, zero,
     assert ("the second half of fast 1.07 times as large" in said) == told
 
 
+def test_scales_of_whole_records_are_told_as_theirs_beside_a_law_that_is_a_little_off():
+    rng, time = np.random.default_rng(6), np.linspace(0.0, 4.0, 1000)
+    scales = {"slow": 1.05, "fast": 0.96, "mid": 1.0, "last": 1.0}
+    made = {name: 40.0 * np.sin(2 * np.pi * (k + 1.0) * time) for k, name in enumerate(scales)}
+    off = [0.3 * np.cos(6 * np.pi * time) + rng.standard_normal(1000) for _ in made]
+    residuals = [(scales[name] - 1.0) * made[name] + part for name, part in zip(made, off, strict=True)]
+    said = _at_other_scales(made, residuals, 1.0)
+    assert said.startswith("A scale of its own for each record explains 9")
+    assert "slow 1.05, fast 0.96 times as large as the others" in said
+
+
 def test_no_scale_makes_up_for_a_wrong_shape():
     time = np.linspace(0.0, 4.0, 1000)
     response = 40.0 * np.sin(2 * np.pi * time)
