@@ -15,13 +15,13 @@ import pandas as pd
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.csv_files import write_table
+from hysteresis_bench.data.faults.time_holes import time_holes, time_holes_told
 from hysteresis_bench.data.layout import AS_THEY_SAY, Layout
 from hysteresis_bench.data.readers.columns import KEEP_FAULTS
 from hysteresis_bench.data.readers.files import read_sheets
 from hysteresis_bench.data.readers.samples import HISTORY, Columns, numbers_of
 from hysteresis_bench.data.readers.samples import LARGEST as LARGEST
 from hysteresis_bench.data.readers.sheet import Sheet, together
-from hysteresis_bench.data.time_holes import time_holes, time_holes_told
 from hysteresis_bench.data.units import in_units, is_no_duration
 from hysteresis_bench.errors import UserError
 from hysteresis_bench.signals import INDEX, UNITLESS, Dataset, Record, joined

@@ -12,9 +12,10 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.data_files import too_small
-from hysteresis_bench.data.hidden_turns import hidden_turns_told
-from hysteresis_bench.data.spikes import spikes_told
-from hysteresis_bench.data.stuck import stuck_told
+from hysteresis_bench.data.faults.dropouts import dropouts_told
+from hysteresis_bench.data.faults.hidden_turns import hidden_turns_told
+from hysteresis_bench.data.faults.spikes import spikes_told
+from hysteresis_bench.data.faults.stuck import stuck_told
 from hysteresis_bench.data.units import frequency_in, seconds_in
 from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.fit.settling import is_closed
@@ -57,6 +58,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
         _clipping,
         _aliasing,
         _jitter,
+        dropouts_told,
         stuck_told,
         hidden_turns_told,
         spikes_told,

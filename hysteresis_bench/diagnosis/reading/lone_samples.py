@@ -3,8 +3,8 @@ where the output moves fast.
 
 Once a system follows the records but for a few samples, what is left is the noise, and a spike stands out of it however
 the output moves. A sample is one where what is left lies off the median of its neighbours by `FAR` times what samples
-usually do, as in `data.spikes`. Where the rest is more than about the noise, the law is wrong, or an effect is missing,
-and nothing is touched.
+usually do, as in `data.faults.spikes`. Where the rest is more than about the noise, the law is wrong, or an effect is
+missing, and nothing is touched.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.data.spikes import AROUND, FAR, LISTED, MOST
+from hysteresis_bench.data.faults.spikes import AROUND, FAR, LISTED, MOST
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.identifiability.combinations import listed

@@ -1,5 +1,6 @@
-"""What is done about faults of records before a fit: where the output is stuck it is left out, and where the input
-turned in a gap until it has turned twice; what comes after a jump gets an offset of its own, spikes are bridged."""
+"""What is done about faults of records before a fit: rows that were lost are left out, and what an output is stuck at,
+and where the input turned in a gap until it has turned twice; what comes after a jump gets an offset of its own, spikes
+are bridged."""
 
 from __future__ import annotations
 
@@ -8,10 +9,11 @@ from collections.abc import Collection, Sequence
 import numpy as np
 
 from hysteresis_bench import registry
-from hysteresis_bench.data.hidden_turns import hidden_turns_in_words, parted_at_hidden_turns
-from hysteresis_bench.data.jumps import jumps_in_words, parted_at_jumps
-from hysteresis_bench.data.spikes import spikes_in_words, without_spikes
-from hysteresis_bench.data.stuck import parted_where_stuck, stuck_in_words
+from hysteresis_bench.data.faults.dropouts import dropouts_in_words, without_dropouts
+from hysteresis_bench.data.faults.hidden_turns import hidden_turns_in_words, parted_at_hidden_turns
+from hysteresis_bench.data.faults.jumps import jumps_in_words, parted_at_jumps
+from hysteresis_bench.data.faults.spikes import spikes_in_words, without_spikes
+from hysteresis_bench.data.faults.stuck import parted_where_stuck, stuck_in_words
 from hysteresis_bench.signals import Dataset, Record
 
 
@@ -19,7 +21,7 @@ def without_faults(dataset: Dataset, effects: Collection[str] = (registry.RECORD
     """The data set that is fitted with these effects, by name, and a note on every fault that is mended: jumps only
     where an effect gives every record an offset of its own. What is stuck ends in a leap, which would be taken for a
     jump; and a step for half of a spike."""
-    sound = parted_at_hidden_turns(parted_where_stuck(dataset))
+    sound = parted_at_hidden_turns(parted_where_stuck(without_dropouts(dataset)))
     return without_spikes(parted_at_jumps(sound) if registry.RECORD_OFFSET in effects else sound)
 
 
@@ -41,6 +43,6 @@ def jumps_told(record: Record) -> str:
 
 def counted(records: Sequence[Record]) -> tuple[str, ...]:
     """What records say that no device did, or leave out, and that an error counts where nothing is mended."""
-    looks = (stuck_in_words, hidden_turns_in_words, jumps_in_words, spikes_in_words)
+    looks = (dropouts_in_words, stuck_in_words, hidden_turns_in_words, jumps_in_words, spikes_in_words)
     found = (words for record in records if record.output is not None for look in looks if (words := look(record)))
     return tuple(f"{words} The errors count it." for words in found)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import measure
-from hysteresis_bench.data.spikes import spikes
+from hysteresis_bench.data.faults.spikes import spikes
 from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.preparation import prepare

@@ -13,8 +13,8 @@ from itertools import pairwise
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data.parts import parted, parts
-from hysteresis_bench.data.spikes import FAR, distances
+from hysteresis_bench.data.faults.parts import parted, parts
+from hysteresis_bench.data.faults.spikes import FAR, distances
 from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 

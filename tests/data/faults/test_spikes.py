@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import measure
-from hysteresis_bench.data.spikes import distances, spikes, spikes_told, without_spikes
+from hysteresis_bench.data.faults.spikes import distances, spikes, spikes_told, without_spikes
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.signals import Dataset, Record
 

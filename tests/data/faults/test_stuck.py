@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hysteresis_bench.data.stuck import parted_where_stuck, stuck, stuck_told
+from hysteresis_bench.data.faults.stuck import parted_where_stuck, stuck, stuck_told
 from hysteresis_bench.fit.checks.faulty_records import counted, without_faults
 from hysteresis_bench.inspection.oddities import oddities
 from hysteresis_bench.signals import Dataset, Record

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from hysteresis_bench import fit, measure
-from hysteresis_bench.data.jumps import SIDE, jumps, jumps_in_words, parted_at_jumps
-from hysteresis_bench.data.parts import FEWEST_SAMPLES
+from hysteresis_bench.data.faults.jumps import SIDE, jumps, jumps_in_words, parted_at_jumps
+from hysteresis_bench.data.faults.parts import FEWEST_SAMPLES
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.diagnosis_study.imperfections import IMPERFECTIONS
 from hysteresis_bench.fit.checks.faulty_records import without_faults

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data.parts import parted, parts
+from hysteresis_bench.data.faults.parts import parted, parts
 from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.signals import Dataset, Record
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from hysteresis_bench.data.data_files import read_data
-from hysteresis_bench.data.time_holes import time_holes
+from hysteresis_bench.data.faults.time_holes import time_holes
 from hysteresis_bench.signals import Record
 
 COUNT = 1000

@@ -15,9 +15,9 @@ from itertools import pairwise
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data.parts import parted, parts
-from hysteresis_bench.data.spikes import FAR
-from hysteresis_bench.data.stuck import stuck
+from hysteresis_bench.data.faults.parts import parted, parts
+from hysteresis_bench.data.faults.spikes import FAR
+from hysteresis_bench.data.faults.stuck import stuck
 from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Dataset, Record
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from hysteresis_bench.data.hidden_turns import hidden_turns, hidden_turns_told, parted_at_hidden_turns
+from hysteresis_bench.data.faults.hidden_turns import hidden_turns, hidden_turns_told, parted_at_hidden_turns
 from hysteresis_bench.fit.checks.faulty_records import counted, without_faults
 from hysteresis_bench.inspection.oddities import oddities
 from hysteresis_bench.signals import Dataset, Record
