@@ -22,8 +22,8 @@ LONGEST = 12
 """Samples of a run at most: over more, nobody knows what the input did."""
 
 FEWEST = 3
-"""Runs of one value at least. In 20 measured devices none is found with two, and in two of them a lone run with one; with
-half of `MOTION`, twice `APART` or twice `LONGEST` none is found either."""
+"""Runs of one value at least. In 20 measured devices none is found with two, and in two of them a lone run with one;
+with half of `MOTION`, twice `APART` or twice `LONGEST` none is found either."""
 
 APART = 0.5
 """Of the smaller leap, by how much the column may have moved on meanwhile."""

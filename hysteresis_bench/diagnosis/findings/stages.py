@@ -21,6 +21,7 @@ from hysteresis_bench.fit.least_squares import split
 from hysteresis_bench.fit.objective import Problem
 from hysteresis_bench.fit.smooth.rough import Rough
 from hysteresis_bench.fit.unseen.between_samples import between_samples
+from hysteresis_bench.signals import Record
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +102,22 @@ def stage_of(found: Found, hypothesis: Hypothesis, prepared: Prepared) -> Stage:
         tuple(residual_tests(found.evidence.views, residuals)),
         between_samples(system, ready.held_out, values),
         constant_error(system, ready.held_out, values),
+    )
+
+
+def own_zeros(stage: Stage, records: Sequence[Record], held_out: bool, unit: str) -> str:
+    """A sentence, where every record has a constant of its own, estimated on it, held-out ones too; else "".
+
+    records : those that were fitted;  unit : of the output, as it is told"""
+    if registry.RECORD_OFFSET not in stage.names or len(records) == 1:
+        return ""
+    at, column = stage.names.index(registry.RECORD_OFFSET), stage.values[:, None]
+    zeros = {record.name: float(stage.problem.system.offsets(record, column)[at][0]) for record in records}
+    low, high = min(zeros, key=lambda name: zeros[name]), max(zeros, key=lambda name: zeros[name])
+    return (
+        f"Every record has a zero of its own, from {zeros[low]:.3g}{unit} ({low}) to {zeros[high]:.3g}{unit} ({high}): "
+        f"errors are told beside it{', also of what was held out' if held_out else ''}. Of a new record nobody knows "
+        f"it; `predict` takes the middle one, {float(np.median([*zeros.values()])):.3g}{unit}."
     )
 
 

@@ -13,7 +13,7 @@ from hysteresis_bench.diagnosis.evidence.evidence import Evidence
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.findings.remainder import Remainder, other_zero
-from hysteresis_bench.diagnosis.findings.stages import Stage, refuted
+from hysteresis_bench.diagnosis.findings.stages import Stage, own_zeros, refuted
 from hysteresis_bench.diagnosis.findings.ties import Tie
 from hysteresis_bench.diagnosis.search.fallback import was_or_were
 from hysteresis_bench.diagnosis.search.search import Found
@@ -53,6 +53,12 @@ class Outcome:
     @property
     def evidence(self) -> Evidence:
         return self.found.evidence
+
+    @property
+    def unit(self) -> str:
+        """Of the output, as it follows a number; "" where it is plain."""
+        own = self.units.get("output", "1")
+        return "" if own == "1" else f" {own}"
 
     @property
     def carries_over(self) -> bool:
@@ -122,7 +128,7 @@ def headline(outcome: Outcome) -> str:
     """The verdict, with the error before and after; an effect that is tied is never named alone, and one beside
     which much more than the noise is left is named with a doubt."""
     before, after, doubt = outcome.before, outcome.after, outcome.doubt
-    unit = "" if outcome.units.get("output", "1") == "1" else f" {outcome.units['output']}"
+    unit = outcome.unit
     first, last = (stage.held_out or stage.fitted for stage in (before, after))
     where = "on what was held out" if after.held_out else "on what was fitted"
     if not outcome.found.follows:
@@ -253,6 +259,8 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             f"What was held out is missed by {rounded(held_out)} times the noise, what was fitted by {rounded(fitted)}:"
             " what was fitted does not tell all. Fit what was held out too, and hold out another excitation."
         )
+    if zeros := own_zeros(after, records, after.held_out is not None, outcome.unit):
+        said.append(zeros)
     if outcome.cause:
         said.append(f"Ask again with the law {outcome.cause.model}: what is missing around it is another question.")
     elif outcome.doubt.carrying:
