@@ -165,7 +165,7 @@ def test_of_a_lone_record_far_from_the_noise_nothing_around_a_law_counts():
 
 
 @pytest.mark.parametrize(
-    ("response", "richer"), [pytest.param(bent, "preisach", marks=pytest.mark.long), (growing, "maxwell-slip")]
+    ("response", "richer"), [pytest.param(bent, "preisach", marks=pytest.mark.long), (growing, "prandtl-ishlinskii")]
 )
 def test_a_law_of_more_parameters_does_not_take_the_place_of_one_with_an_effect(response, richer):
     asked = Question("", options=replace(ONE, laws=("bouc-wen", richer)))
