@@ -79,6 +79,7 @@ class Model(ABC):
     wants: ClassVar[Mapping[str, str]] = MappingProxyType({})  # units of columns that it has constants in
     properties: ClassVar[tuple[Property, ...]] = ()
     """What it has at all settings; laws are struck out where data refute it. Left out is what is not sure."""
+    own_shapes: ClassVar[Mapping[str, str]] = MappingProxyType({})  # effects that may be its own shape, and why
     senses: ClassVar[tuple[int, ...]] = (-1, 1)  # of its loops, output over input: 1 anticlockwise, -1 clockwise
     example: ClassVar[Example | None] = None  # with what it makes data, where it may be asked to
 
@@ -131,8 +132,7 @@ class Effect(ABC):
     acts: ClassVar[Acts]
     family: ClassVar[Family]
     wants: ClassVar[Mapping[str, str]] = MappingProxyType({})  # as of a model
-    nuisance: ClassVar[bool] = False
-    """True: it is estimated and never claimed. It stands outside all others that act where it does."""
+    nuisance: ClassVar[bool] = False  # estimated, never claimed; it stands outside all others that act where it does
     mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Other effects by name, and why data may not tell them from it, as a sentence ends. One of the two may say so."""
     affine: ClassVar[bool] = False  # is the output affine in what is wrapped? then so it is in its affine parameters

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import Agreement, agreement, alike, is_rate_independent, is_shape
@@ -32,6 +32,7 @@ class Doubt:
     untested : far from the noise, only one excitation speaks for what was adopted, of one amplitude and frequency
     carrying : what was adopted and carries the loop alone; what has no dynamics may be of its shape then
     free : free forms that were adopted though the noise is not reached: they follow any law's fault
+    own : effects that the law says may be its own shape, and why
     """
 
     cause: Cause | None = None
@@ -39,11 +40,12 @@ class Doubt:
     untested: bool = False
     carrying: tuple[str, ...] = ()
     free: tuple[str, ...] = ()
+    own: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def raised(self) -> bool:
         """Is there any?"""
-        return self.of_the_law or bool(self.carrying) or bool(self.free)
+        return self.of_the_law or bool(self.carrying or self.free or self.own)
 
     @property
     def of_the_law(self) -> bool:
@@ -54,7 +56,7 @@ class Doubt:
     def undecided(self) -> bool:
         """May what was adopted be a part of the right law, though no other law does better for certain?"""
         cause = self.cause
-        return self.agreement is not None or self.untested or (cause.as_well if cause else bool(self.free))
+        return self.agreement is not None or self.untested or (cause.as_well if cause else bool(self.free or self.own))
 
     def asks_for(self, adopted: Sequence[str]) -> list[str]:
         """Effects that are needed, and for which nothing alike was adopted."""
@@ -64,7 +66,7 @@ class Doubt:
     def holding(self, adopted: Sequence[str]) -> dict[str, tuple[str, ...]]:
         """Of the adopted effects those that are more than stand-ins for the law, as far as is known, each with what is
         taken in its place around other laws."""
-        others = {*self.carrying, *self.free, *(filter(is_shape, adopted) if self.carrying else ())}
+        others = {*self.carrying, *self.free, *self.own, *(filter(is_shape, adopted) if self.carrying else ())}
         adopted = [name for name in adopted if name not in others]
         if not self.of_the_law:
             return {name: () for name in adopted}
@@ -97,7 +99,11 @@ def doubt(found: Found, question: Question, laws: Sequence[str], witnesses: Sequ
     options, stack, asked, floor = question.options, found.thin.stack, question.model, found.selection.floor
     final = Contender(asked, found.selection.adopted(found.best), found.thin.unseen(found.final))
     forms = tuple(forms_of(final.effects))
-    known = Doubt(carrying=carrying(found), free=() if fits(found.selection, found.best) else forms)
+    known = Doubt(
+        carrying=carrying(found),
+        free=() if fits(found.selection, found.best) else forms,
+        own={name: why for name, why in stack.model.own_shapes.items() if name in final.effects},
+    )
     imitated = made_of_shapes(final, floor)
     if not found.follows or (final.rmse <= REACHED * floor and not forms and not imitated):
         return known

@@ -90,7 +90,7 @@ class Outcome:
     @property
     def unexplained(self) -> bool:
         left = self.left.matters or self.left.louder or self.leaves_much
-        wrong = self.cause is not None or bool(self.doubt.carrying)
+        wrong = self.cause is not None or bool(self.doubt.carrying or self.doubt.own)
         return left or not self.found.follows or not self.carries_over or wrong
 
     @property
@@ -199,7 +199,8 @@ def _of_the_law(outcome: Outcome, unit: str) -> Iterator[str]:
     if outcome.stand_ins:
         alike: dict[str, list[str]] = {}
         for name in (one for one in outcome.stand_ins if one not in outcome.doubt.carrying):
-            alike.setdefault(agreed.without(name) if agreed else "", []).append(name)
+            why = outcome.doubt.own.get(name) or (agreed.without(name) if agreed else "")
+            alike.setdefault(why, []).append(name)
         disputed = [f"{listed(names)} ({reason})" if reason else listed(names) for reason, names in alike.items()]
         if disputed:
             yield f"{', and '.join(disputed)} may stand in for the law."

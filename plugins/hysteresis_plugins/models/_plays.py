@@ -22,6 +22,8 @@ RADIUS = Parameter(
 )
 SLOPE = "slope of each play's part of the output, once it moves"
 """What a weight in a density is."""
+OWN_SHAPES = dict.fromkeys(("rayleigh-hysteresis", "play-bank"), "it is a sum of plays, as this law is but for a slope")
+"""What more plays, or other weights, would do."""
 NARROWEST = 0.05
 """Least radius in half ranges of the input."""
 

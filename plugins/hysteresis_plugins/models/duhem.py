@@ -10,9 +10,9 @@ it goes there along the input's path.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -37,8 +37,8 @@ class Duhem(Model):
     they are not positive, clockwise. The box takes the side on which the records' loops run.
 
     Ours: f and g are these functions, where [1] leaves them open, so that the loop is high where the curve is steep,
-    or everywhere. With height = lost_height = 0 it is `bouc-wen` with gamma = 0. At the first sample y lies on f. The
-    constant is the effect bias, or record-offset.
+    or everywhere. A curve c(u) beside it is this law again, with f + c and g + c'. With height = lost_height = 0 it is
+    `bouc-wen` with gamma = 0. At the first sample y lies on f. The constant is the effect bias, or record-offset.
     """
 
     parameters = (
@@ -52,6 +52,9 @@ class Duhem(Model):
     )
     linear = ("slope", "height", "lost", "lost_height")
     properties = ("rate-independent",)
+    own_shapes: ClassVar[Mapping[str, str]] = dict.fromkeys(
+        ("cubic-stiffness", "parallel-curve"), "with a curve f of another shape this law does the same by itself"
+    )
     example = Example(
         4.0,
         {"alpha": 1.2, "centre": 0.2, "width": 1.4, "slope": 0.3, "height": 1.0, "lost": 0.1, "lost_height": 0.6},

@@ -19,7 +19,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, at_least, named, radius_box
+from hysteresis_plugins.models._plays import OWN_SHAPES, RADIUS, at_least, named, radius_box
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 NARROWEST = 0.02
@@ -61,6 +61,7 @@ class MaxwellSlip(Model):
 
     parameters = _parameters(16)
     linear = tuple(parameter.name for parameter in parameters[2:])
+    own_shapes = OWN_SHAPES
     properties = ("rate-independent", "odd", "return-point")
     offers = OFFERS
     example = Example(

@@ -19,7 +19,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, offset, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least, named, radius_box, thresholds
+from hysteresis_plugins.models._plays import OWN_SHAPES, RADIUS, SLOPE, at_least, named, radius_box, thresholds
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 
@@ -51,6 +51,7 @@ class PrandtlIshlinskii(Model):
 
     parameters = _parameters(12)
     linear = tuple(parameter.name for parameter in parameters[1:])
+    own_shapes = OWN_SHAPES
     properties = ("rate-independent", "odd", "masing", "return-point", "congruent")
     offers = OFFERS
     example = Example(

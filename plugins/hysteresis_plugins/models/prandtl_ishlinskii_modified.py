@@ -18,7 +18,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, input_span, offset, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least, named, radius_box, thresholds
+from hysteresis_plugins.models._plays import OWN_SHAPES, RADIUS, SLOPE, at_least, named, radius_box, thresholds
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 HEAVIEST = 10.0
@@ -61,6 +61,7 @@ class PrandtlIshlinskiiModified(Model):
 
     parameters = _parameters(8, 3)
     linear = tuple(parameter.name for parameter in parameters[11:])
+    own_shapes = OWN_SHAPES
     properties = ("rate-independent", "return-point")
     offers = OFFERS
     example = Example(

@@ -19,7 +19,7 @@ from hysteresis_bench.contracts import Example, Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, input_span, offset, output_span
-from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least, radius_box, thresholds
+from hysteresis_plugins.models._plays import OWN_SHAPES, RADIUS, SLOPE, at_least, radius_box, thresholds
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 FAR = 1.5
@@ -66,6 +66,7 @@ class Preisach(Model):
 
     parameters = _parameters(5, 3)
     linear = tuple(parameter.name for parameter in parameters[1:])
+    own_shapes = OWN_SHAPES
     properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
     example = Example(4.0, _example(5, 3), stream=7, without=("threshold-rate",))

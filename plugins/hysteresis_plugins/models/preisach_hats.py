@@ -20,7 +20,7 @@ from hysteresis_bench.contracts import Model
 from hysteresis_bench.parameters import Parameter
 from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.models._data import STEEPEST, falling, offset, output_span, sense, sided, steepness
-from hysteresis_plugins.models._plays import RADIUS, SLOPE, at_least
+from hysteresis_plugins.models._plays import OWN_SHAPES, RADIUS, SLOPE, at_least
 from hysteresis_plugins.models._threshold_rate import OFFERS, rated
 
 TALLEST = 2.0
@@ -69,6 +69,7 @@ class PreisachHats(Model):
 
     parameters = _parameters(12, 24)
     linear = tuple(parameter.name for parameter in parameters[3:])
+    own_shapes = OWN_SHAPES
     properties = ("rate-independent", "return-point", "congruent")
     offers = OFFERS
 

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from hysteresis_bench import registry
 from hysteresis_bench.diagnosis.doubt.agreement import agreement, alike
 from hysteresis_bench.diagnosis.doubt.cause import Cause
 from hysteresis_bench.diagnosis.doubt.doubt import Doubt
@@ -85,3 +86,19 @@ def test_free_forms_far_from_the_noise_are_no_names_and_what_is_named_beside_the
     doubted = Doubt(free=("lags-before",))
     assert doubted.holding(["creep", "lags-before"]) == {"creep": ()}
     assert doubted.asks_for(["creep", "lags-before"]) == []
+
+
+def test_what_a_law_says_to_be_its_own_shape_is_not_held_and_the_rest_is():
+    doubted = Doubt(own={"cubic-stiffness": "with another curve it does the same"})
+    assert doubted.raised
+    assert not doubted.of_the_law
+    assert doubted.undecided
+    assert doubted.holding(["cubic-stiffness", "resonance"]) == {"resonance": ()}
+
+
+def test_shapes_that_laws_call_their_own_are_effects_that_are_tried():
+    for law in registry.names("models"):
+        for name, why in registry.build("models", law).own_shapes.items():
+            assert name in registry.names("effects")
+            assert why[0].islower()
+            assert why[-1].isalpha()

@@ -217,3 +217,12 @@ def test_a_zero_that_lies_elsewhere_is_not_blamed_on_the_law():
     elsewhere = replace(missed, after=Of(**{**vars(missed.after), "constant": 0.38}))
     assert "own law does not follow" not in " ".join(warnings(elsewhere))
     assert "Of that 0.38 um is a constant" in headline(elsewhere)
+
+
+def test_a_shape_of_the_law_s_own_is_told_with_why_and_no_effect_is_named():
+    own = Doubt(own={"creep": "with another curve this law does the same"})
+    outcome = replace(outcome_of(("creep",), {}, rmse=0.1), doubt=own)
+    assert outcome.unexplained
+    said = headline(outcome)
+    assert said.startswith("No effect is named, as what helps may be the law's own: with it, ")
+    assert said.endswith("creep (with another curve this law does the same) may stand in for the law.")
