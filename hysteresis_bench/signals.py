@@ -233,10 +233,11 @@ class Dataset:
         return "held-out" if record.name in self.held_out_names else "fitted"
 
     def split(self, held_out: Sequence[str]) -> Dataset:
-        """The same records with these held out. Raises ValueError for an unknown name."""
-        unknown = [name for name in held_out if name not in self.names]
+        """The same records with these held out. Raises ValueError for unknown names."""
+        unknown = [repr(name) for name in held_out if name not in self.names]
         if unknown:
-            raise ValueError(f"no record {unknown[0]!r}; there are: {', '.join(self.names)}")
+            none = f"no record{'s' if len(unknown) > 1 else ''} {', '.join(unknown)}"
+            raise ValueError(f"{none}; there are: {', '.join(self.names)}")
         return replace(self, held_out_names=tuple(held_out))
 
     def _repr_html_(self) -> str:

@@ -99,3 +99,11 @@ def test_records_of_one_name_are_no_data_set():
     one = Record(np.arange(3.0), np.arange(3.0), np.arange(3.0))
     with pytest.raises(UserError, match="several records are named 'record'"):
         Dataset((one, one))
+
+
+def test_unknown_records_to_hold_out_are_told_together():
+    data = Dataset(tuple(Record(np.arange(3.0), np.arange(3.0), np.arange(3.0), name) for name in ("slow", "fast")))
+    with pytest.raises(ValueError, match=r"^no record 'quick'; there are: slow, fast$"):
+        data.split(["quick", "fast"])
+    with pytest.raises(ValueError, match=r"^no records 'quick', 'slo'; there are: slow, fast$"):
+        data.split(["quick", "slo"])
