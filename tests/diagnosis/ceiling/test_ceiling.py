@@ -1,6 +1,6 @@
 """What a black box reaches on excitations left out: never less than the noise, and more than a wrong model."""
 
-from dataclasses import replace
+from dataclasses import asdict, replace
 
 import numpy as np
 import pytest
@@ -151,3 +151,12 @@ def test_of_two_excitations_little_is_said():
     found = Ceiling(18.0, 17.0, 17.0, 1.0, "past extrema", "whole records", 2, "um", 1.0, 1.0, None)
     assert "says little" in found.words
     assert not found.finds_nothing
+
+
+def test_nothing_else_is_to_be_measured_where_another_law_does_better():
+    found = Ceiling(4.0, 4.1, 4.1, -1.0, "past extrema", "whole records", 4, "um", 1.0, 1.0, None)
+    assert found.words.endswith("or add excitations.")
+    known = replace(found, of_the_law=True)
+    assert known.words.endswith("smooth course of time or path.")
+    assert found.words.startswith(known.words)
+    assert set(known.as_dict()) == {*asdict(known), "reached", "clearly_better", "words"} - {"of_the_law"}
