@@ -19,6 +19,7 @@ from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
 from hysteresis_bench.diagnosis.search.selection import MISFIT
+from hysteresis_bench.fit.identifiability.combinations import listed
 from hysteresis_bench.kernels.root_mean_square import rms
 from hysteresis_bench.statistics import LEVEL as OF_A_TEST
 
@@ -70,7 +71,9 @@ class Remainder:
         are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
     shape : a sentence, where it repeats itself along the input or the output, comes in bursts, is far above the noise
-        of the record that it is left of, or is that of halves of records at other scales
+        of the record that it is left of, or is that of records, or halves of them, at other scales
+    alone : records in which it depends on something by itself, though not in all together. In made noise that is white
+        or falls off within some samples one does in 1 of 160 cases, in 1/f noise in 25 of 30
     """
 
     equation: Equation | None
@@ -79,6 +82,7 @@ class Remainder:
     heavy: bool
     louder: bool
     shape: str = ""
+    alone: tuple[str, ...] = ()
 
     @property
     def noise(self) -> bool:
@@ -92,9 +96,10 @@ class Remainder:
             if self.slow
             else ("is not correlated,", "noise of heavy tails, where few samples are far off")
         )
+        here = f"here in all records together, though in {listed(self.alone)} it seems to" if self.alone else "here"
         return (
             f"What is left is {rounded(times)} times the noise from sample to sample and {correlated} depends on "
-            f"nothing that was measured here, and no term describes it: {kind}."
+            f"nothing that was measured {here}, and no term describes it: {kind}."
         )
 
     def of_a_cause(self) -> Remainder:
@@ -118,8 +123,7 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     if stage.fitted.rmse <= floor or not (loud or telling):
         return Remainder(None, bool(missed), False, False, louder, missed)
     equation = find_terms([view.record for view in views], residuals, simulated)
-    # a cause may show in one record alone; in made noise, white or slow, it seems so in 1 of 160 cases
-    caused = [test for test in _telling(stage.tests) if test.significant and test.name not in OF_THE_NOISE]
+    caused = [test for test in telling if test.name not in OF_THE_NOISE]
     white = not any(test.name == "whiteness" for test in tests)
     noise = not (caused or equation.terms or louder or missed)
     bursts = noise and not white and equally_loud(_averaged(residuals, floor)) < UNLIKELY
@@ -127,7 +131,9 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
     ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
     shape = f"{ripple.words.capitalize().partition(', p =')[0]}." if ripple else BURSTS if bursts else missed
-    return Remainder(equation, not (slow or heavy), slow, heavy, louder, shape)
+    seems = [t for t in _telling(stage.tests) if t.significant and t.record != scope and t.name not in OF_THE_NOISE]
+    alone = tuple(dict.fromkeys(test.record for test in seems))
+    return Remainder(equation, not (slow or heavy), slow, heavy, louder, shape, alone)
 
 
 def _telling(tests: Sequence[ResidualTest]) -> list[ResidualTest]:

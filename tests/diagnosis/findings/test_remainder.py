@@ -1,5 +1,6 @@
 """Slow noise is as loud where nothing was fitted: what is missed there by more has a cause."""
 
+from dataclasses import replace
 from types import SimpleNamespace as Of
 
 import numpy as np
@@ -205,3 +206,10 @@ def test_no_scale_makes_up_for_a_wrong_shape():
     time = np.linspace(0.0, 4.0, 1000)
     response = 40.0 * np.sin(2 * np.pi * time)
     assert _at_other_scales({"one": response}, [0.05 * response + 3.0 * np.cos(4 * np.pi * time)], 1.0) == ""
+
+
+def test_a_record_in_which_slow_noise_seems_to_have_a_cause_is_told():
+    slow = Remainder(None, False, True, False, False)
+    assert "depends on nothing that was measured here, and no term" in slow.told_as_noise(1.3)
+    said = replace(slow, alone=("grw", "dec")).told_as_noise(1.3)
+    assert "nothing that was measured here in all records together, though in grw and dec it seems to, and no" in said
