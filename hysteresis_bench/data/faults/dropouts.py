@@ -29,7 +29,8 @@ APART = 0.5
 """Of the smaller leap, by how much the column may have moved on meanwhile."""
 
 MOSTLY = 0.3
-"""Of all samples of that value, the share that leaps from which all of them were lost."""
+"""Of all samples of that value, the share that leaps from which all of them were lost. Half of it changes nothing in
+four made records with 26 to 30 such samples, with twice of it half of them stay in two."""
 
 MOST_OF_A_RECORD = 0.2
 """Share of a record's samples beyond which it is the device."""
@@ -76,16 +77,19 @@ def _lost(record: Record) -> dict[str, Array]:
 
 
 def _lost_of(time: Array, values: Array, others: list[Array]) -> Array:
+    """Which samples of a column were, (samples,) of bool, but for a run at either end."""
     ends = np.flatnonzero(np.diff(values) != 0.0)
-    runs = zip((ends[:-1] + 1).tolist(), (ends[1:] + 1).tolist(), strict=True)  # but for the first and the last
+    lows, highs = ends[:-1] + 1, ends[1:] + 1
+    _, which, count = np.unique(values[lows], return_inverse=True, return_counts=True)
+    often = (count[which] >= FEWEST) & (highs - lows <= LONGEST)
     off, loudness = distances(time, values)
     least = FAR * max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(values)))))
     alike = defaultdict[float, list[tuple[int, int]]](list)
-    for low, high in runs:
-        if high - low <= LONGEST and _leaps(values, low, high, least):
-            value = float(values[low])
-            if all(_calm(other, low, high) or np.all(other[low:high] == value) for other in others):
-                alike[value].append((low, high))
+    for low, high in zip(lows[often].tolist(), highs[often].tolist(), strict=True):
+        value = float(values[low])
+        gone_on = (_calm(other, low, high) or np.all(other[low:high] == value) for other in others)
+        if _leaps(values, low, high, least) and all(gone_on):
+            alike[value].append((low, high))
     lost = np.zeros(values.size, dtype=bool)
     for value, found in alike.items():
         same = values == value

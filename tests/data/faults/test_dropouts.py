@@ -86,3 +86,9 @@ def test_stick_and_slip_is_not_lost():
     phase = np.arange(TIME.size) % 60
     y = np.where(phase < 8, 0.0, 3.0 * (phase - 7.0))
     assert not np.any(dropouts(Record(TIME, np.arange(TIME.size) * 0.01, y)))
+
+
+@pytest.mark.parametrize("steps", [1, 2])
+def test_a_column_of_two_or_three_values_is_not_lost(steps):
+    y = np.repeat(np.arange(steps + 1.0), TIME.size // (steps + 1))
+    assert not np.any(dropouts(Record(TIME[: y.size], U[: y.size], y)))
