@@ -20,7 +20,8 @@ from hysteresis_plugins.models.hammerstein import Hammerstein
 PUBLISHED = np.array([0.304225, 0.675313, 0.497724, 1.045814])  # PEA paper, Table 2, G-Pmix
 LINEAR = np.array([267_700.0, 510.1069, 255_700.0])  # PEA paper, Table 3, G-Pmix
 
-turning_points = st.lists(st.floats(-10, 10), min_size=2, max_size=8)
+# below 2e-308 a way back may round to a force of exactly 0, whose side is then the one before
+turning_points = st.lists(st.floats(-10, 10, allow_subnormal=False), min_size=2, max_size=8)
 shapes = st.tuples(st.floats(0.01, 0.9), st.floats(0.05, 5), st.floats(-0.9, 0.9), st.floats(0.1, 5))
 
 
