@@ -126,7 +126,7 @@ def mended(work: Array, lanes: np.uint64, n: float, special: int = LANES) -> boo
             toward = mirror if work[STEP + j] >= 0.0 else -mirror
             g, free, width = toward * work[OLD + j], toward * new, abs(work[STEP + j])
             onward = g != 0.0 and (g < 0.0) == (free < 0.0)  # else a step for n > 1 went from rest, or past a pole
-            if n == 1.0 and g < 0.0 < free:
+            if n == 1.0 and g <= 0.0 < free:  # a way back may round to exactly 0, whose side is the one before
                 free = regrown(g, abs(drive), beta + mirror * gamma, beta - mirror * gamma, width)
             elif lost or g < 0.0 < free or (n > 1.0 and not onward):
                 free = grown(g, abs(drive), beta + mirror * gamma, beta - mirror * gamma, n, width, bound)

@@ -4,7 +4,7 @@ from collections import namedtuple
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from scipy.optimize import least_squares
 
@@ -20,8 +20,7 @@ from hysteresis_plugins.models.hammerstein import Hammerstein
 PUBLISHED = np.array([0.304225, 0.675313, 0.497724, 1.045814])  # PEA paper, Table 2, G-Pmix
 LINEAR = np.array([267_700.0, 510.1069, 255_700.0])  # PEA paper, Table 3, G-Pmix
 
-# below 2e-308 a way back may round to a force of exactly 0, whose side is then the one before
-turning_points = st.lists(st.floats(-10, 10, allow_subnormal=False), min_size=2, max_size=8)
+turning_points = st.lists(st.floats(-10, 10), min_size=2, max_size=8)
 shapes = st.tuples(st.floats(0.01, 0.9), st.floats(0.05, 5), st.floats(-0.9, 0.9), st.floats(0.1, 5))
 
 
@@ -56,6 +55,7 @@ def test_time_never_enters(points, shape, stretch, n):
 
 
 @given(turning_points, shapes, st.integers(2, 9))
+@example([1e-20, 0.0, -1.0], (0.5, 1.0, 0.5, 1.0), 2)  # the way back to 0 rounds to a force of exactly 0
 @settings(max_examples=25, deadline=None)
 def test_sampling_the_same_path_more_finely_changes_rounding_only(points, shape, times):
     u = through(points, samples=8)
