@@ -14,8 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.data.faults.spikes import AROUND, FAR, MOTION, distances
-from hysteresis_bench.kernels.white_noise import MEDIAN
+from hysteresis_bench.data.faults.spikes import AROUND, FAR, MOTION, distances, usual_distance
 from hysteresis_bench.signals import Dataset, Record
 
 LONGEST = 12
@@ -36,14 +35,16 @@ MOST_OF_A_RECORD = 0.2
 """Share of a record's samples beyond which it is the device."""
 
 
+LEFT_OUT = "These rows are left out."
+
+
 def without_dropouts(dataset: Dataset) -> Dataset:
     """The data set without the rows that were lost, and a note on every record that has some."""
     records, notes = [], list(dataset.notes)
     for record in dataset.records:
-        lost = dropouts(record)
-        if np.any(lost):
-            notes.append(f"{_words(record)} These rows are left out.")
-            record = record.take(~lost)
+        if lost := _lost(record):
+            notes.append(f"{_words(record, lost)} {LEFT_OUT}")
+            record = record.take(~np.any([*lost.values()], axis=0))
         records.append(record)
     return replace(dataset, records=tuple(records), notes=tuple(notes))
 
@@ -51,43 +52,43 @@ def without_dropouts(dataset: Dataset) -> Dataset:
 def dropouts_told(record: Record) -> str:
     """Where the dropouts of a record are and what a fit does with them; empty without any."""
     words = dropouts_in_words(record)
-    return words and f"{words} These rows are left out."
+    return words and f"{words} {LEFT_OUT}"
 
 
 def dropouts_in_words(record: Record) -> str:
     """Where the dropouts of a record are; empty without any."""
-    lost = dropouts(record)
-    return _words(record) if np.any(lost) else ""
+    lost = _lost(record)
+    return _words(record, lost) if lost else ""
 
 
 def dropouts(record: Record) -> Array:
     """Which rows of the whole record were lost, (samples,) of bool."""
-    lost = np.any([np.zeros(record.time.size, dtype=bool), *_lost(record).values()], axis=0)
-    return lost if np.mean(lost) <= MOST_OF_A_RECORD else np.zeros_like(lost)
+    lost: Array = np.any([np.zeros(record.time.size, dtype=bool), *_lost(record).values()], axis=0)
+    return lost
 
 
 def _lost(record: Record) -> dict[str, Array]:
-    """Of the input and the output, by name, which samples were."""
+    """Which samples were, (samples,) of bool, of the input and of the output, by name; without those that lost none."""
     columns = {"input": record.input, "output": record.output}
     known = {name: c for name, c in columns.items() if c is not None and c.size >= 8 * AROUND and np.ptp(c) > 0.0}
-    return {
-        name: _lost_of(record.time, column, [one for one in known.values() if one is not column])
-        for name, column in known.items()
+    lost = {
+        name: _lost_of(record.time, c, [one for one in known.values() if one is not c]) for name, c in known.items()
     }
+    lost = {name: rows for name, rows in lost.items() if np.any(rows)}
+    return lost if lost and np.mean(np.any([*lost.values()], axis=0)) <= MOST_OF_A_RECORD else {}
 
 
-def _lost_of(time: Array, values: Array, others: list[Array]) -> Array:
-    """Which samples of a column were, (samples,) of bool, but for a run at either end."""
+def _lost_of(time: Array, values: Array, columns: list[Array]) -> Array:
+    """Which samples of a column were, (samples,) of bool, but for a run at either end;  columns : all of the record"""
     ends = np.flatnonzero(np.diff(values) != 0.0)
     lows, highs = ends[:-1] + 1, ends[1:] + 1
     _, which, count = np.unique(values[lows], return_inverse=True, return_counts=True)
     often = (count[which] >= FEWEST) & (highs - lows <= LONGEST)
-    off, loudness = distances(time, values)
-    least = FAR * max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(values)))))
+    least = FAR * usual_distance(values, *distances(time, values))
     alike = defaultdict[float, list[tuple[int, int]]](list)
     for low, high in zip(lows[often].tolist(), highs[often].tolist(), strict=True):
         value = float(values[low])
-        gone_on = (_calm(other, low, high) or np.all(other[low:high] == value) for other in others)
+        gone_on = (_calm(one, low, high) or np.all(one[low:high] == value) for one in columns)
         if _leaps(values, low, high, least) and all(gone_on):
             alike[value].append((low, high))
     lost = np.zeros(values.size, dtype=bool)
@@ -123,11 +124,10 @@ def _around(values: Array, low: int, high: int) -> float:
     return float(np.max(np.abs(np.concatenate([np.diff(before), np.diff(after)])), initial=0.0))
 
 
-def _words(record: Record) -> str:
+def _words(record: Record, lost: dict[str, Array]) -> str:
     told = []
-    for name, lost in _lost(record).items():
+    for name, rows in lost.items():
         column = record.input if name == "input" or record.output is None else record.output
-        if np.any(lost):
-            values = " or ".join(f"{value:.6g}" for value in np.unique(column[lost]).tolist())
-            told.append(f"the {name} leaps to {values} and back ({np.count_nonzero(lost)} samples)")
+        values = " or ".join(f"{value:.6g}" for value in np.unique(column[rows]).tolist())
+        told.append(f"the {name} leaps to {values} and back ({np.count_nonzero(rows)} samples)")
     return f"record {record.name}: {', '.join(told)}: were they lost?"

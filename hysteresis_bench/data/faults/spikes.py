@@ -82,8 +82,7 @@ def spikes(record: Record) -> Array:
     y, time = record.output.copy(), record.time
     off, loudness = distances(time, y)
     off[[0, 1, -2, -1]] = 0.0  # these have no two neighbours on either side
-    usual = max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(y)))))
-    least = np.maximum(FAR * usual * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
+    least = np.maximum(FAR * usual_distance(y, off, loudness) * loudness, SMALLEST * float(np.ptp(np.sort(y)[1:-1])))
     far = np.flatnonzero(np.abs(off) > least)
     paired = far.size <= SEEN_AT * MOST * y.size  # more are no few spikes' doing
     found: list[int] = []
@@ -118,6 +117,13 @@ def distances(time: Array, values: Array, samples: list[int] | None = None) -> t
             if k != j:
                 weights[:, j] *= -nodes[:, k] / (nodes[:, j] - nodes[:, k])
     return values[at] - np.sum(weights * values[others], axis=1), np.sqrt(1.0 + np.sum(weights**2, axis=1))
+
+
+def usual_distance(values: Array, off: Array, loudness: Array) -> float:
+    """Of most samples from their cubics, for white noise of 1, at least the step of the values' grid.
+
+    values : (n,), not all one;  off, loudness : (n,) each, their `distances`"""
+    return max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(np.diff(np.unique(values)))))
 
 
 def _lone(time: Array, bridged: Array, sample: int, off: float, least: float) -> bool:

@@ -14,8 +14,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.data.faults.parts import parted, parts
-from hysteresis_bench.data.faults.spikes import FAR, distances
-from hysteresis_bench.kernels.white_noise import MEDIAN
+from hysteresis_bench.data.faults.spikes import FAR, distances, usual_distance
 from hysteresis_bench.signals import Dataset, Record
 
 REPEATED = 5
@@ -63,11 +62,8 @@ def stuck(record: Record) -> list[tuple[int, int]]:
     still = np.concatenate(([False], np.diff(y) == 0.0, [False])).astype(int)
     edges = np.flatnonzero(np.diff(still)) + 1
     runs = [(int(low), int(high)) for low, high in zip(edges[::2], edges[1::2], strict=True) if high - low >= REPEATED]
-    off, loudness = distances(record.time[record.scored], y)
-    steps = np.diff(np.unique(y))
-    least = max(
-        FAR * max(float(np.median(np.abs(off / loudness))) / MEDIAN, float(np.min(steps))), SMALLEST * np.ptp(y)
-    )
+    usual = usual_distance(y, *distances(record.time[record.scored], y))
+    least = max(FAR * usual, SMALLEST * np.ptp(y))
     found = [
         (low, high)
         for low, high in runs
