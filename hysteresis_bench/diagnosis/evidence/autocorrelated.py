@@ -76,13 +76,19 @@ def whitened(values: Parts, coefficients: Array) -> list[Array]:
     ]
 
 
+def lagged_products(e: Array) -> Array:
+    """sum_i e_i e_(i+k) at lags k of 0..n-1."""
+    from scipy.fft import next_fast_len
+
+    padded = next_fast_len(2 * e.size, real=True)  # twice as long, so that the end does not meet the beginning
+    products: Array = np.fft.irfft(np.abs(np.fft.rfft(e, padded)) ** 2, padded)[: e.size]
+    return products
+
+
 def correlations(errors: Parts) -> Array:
     """Autocorrelation at lags 0..n/2 of the shortest record, pooled; 1 at lag 0. Means are not taken off."""
     length = max(2, min(error.size for error in errors) // 2)
-    total = np.zeros(length)
-    for error in errors:
-        power = np.abs(np.fft.rfft(error, 2 * error.size)) ** 2
-        total += np.fft.irfft(power)[:length]
+    total = np.sum([lagged_products(error)[:length] for error in errors], axis=0)
     found: Array = total / total[0] if total[0] > 0 else np.eye(1, length)[0]
     return found
 

@@ -144,8 +144,7 @@ def _whiteness(residuals: Sequence[Array]) -> tuple[float, float, float]:
         lags = int(min(10.0 * np.log10(e.size), e.size // 5))
         if lags < 1 or not e @ e > 0:
             continue
-        power = np.abs(np.fft.rfft(e, 2 * e.size)) ** 2
-        r = np.fft.irfft(power)[1 : lags + 1] / (e @ e)
+        r = autocorrelated.lagged_products(e)[1 : lags + 1] / (e @ e)
         statistic += e.size * (e.size + 2.0) * float(np.sum(r**2 / (e.size - np.arange(1, lags + 1))))
         freedom += lags
         innovation = autocorrelated.whitened([e], autocorrelated.autoregression([e]))[0]

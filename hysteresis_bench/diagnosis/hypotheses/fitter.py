@@ -121,7 +121,7 @@ class Fitter:
         found = self._finished(problem, names, points, near)
         # a curve may take over what the shape of the law alone was bent to; one that is linear is solved for at once
         effect = self.stack.effect(name)
-        curve = linear and is_curve(effect) and not effect.linear
+        curve = linear and is_curve(effect) and not effect.linear and not isinstance(found, Behind)
         return min(found, self.from_anywhere(names), key=lambda one: one.rmse) if curve else found
 
     def reduced(self, hypothesis: Hypothesis, name: str) -> Hypothesis:

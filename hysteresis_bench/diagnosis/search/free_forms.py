@@ -149,7 +149,8 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
         families = {effect(first).family, effect(second).family}
         asked = [form for form in forms if effect(form).family in families]
         smaller = selection.without(selection.without(current, first), second) if asked else current
-        tried += selection.workers.map([("extended", smaller, form, current.values) for form in asked])
+        other = (current.values, current.rmse)
+        tried += selection.workers.map([("extended", smaller, form, *other) for form in asked])
         if len(families) == 1 and _one_wave(current, first, second):
             waves |= {smaller.names | {form} for form in asked}
     fitting = [one for one in tried if fits(selection, one)]
@@ -166,7 +167,7 @@ def _in_place_of_two(selection: Selection, current: Hypothesis) -> Hypothesis:
     ]
     if not clear:
         return current
-    return _alone(selection, selection.workers.map([("refitted", selection.simplest(clear))])[0])
+    return _alone(selection, selection.refitted(selection.simplest(clear)))
 
 
 def _one_wave(current: Hypothesis, first: str, second: str) -> bool:
@@ -208,7 +209,7 @@ def _freed(selection: Selection, current: Hypothesis, forms: list[str], beside: 
     found = [system for system in tried if _clearly(selection, current, system)]
     if not found:
         return None
-    better = _thinned(selection, selection.workers.map([("refitted", selection.simplest(_fixed(selection, found)))])[0])
+    better = _thinned(selection, selection.refitted(selection.simplest(_fixed(selection, found))))
     # beside all that is named a free form is one claim more: a little misfit is too little for it
     more = len(selection.adopted(better)) > len(selection.adopted(current))
     return None if more and fits(selection, current) else better

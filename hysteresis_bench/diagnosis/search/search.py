@@ -130,7 +130,7 @@ def with_more(found: Found, asked: Sequence[Sequence[str]]) -> Found:
     for names in asked:
         needed = [system for system in selection.with_each(best, names) if selection.needed(best, system)]
         if needed:
-            (more,) = selection.workers.map([("refitted", selection.simplest(needed))])
+            more = selection.refitted(selection.simplest(needed))
             best = more if unseen_rmse(found.thin, more) < unseen_rmse(found.thin, best) else best
     return found if best is found.best else replace(_ending_with(found, best), given_up=found.given_up)
 

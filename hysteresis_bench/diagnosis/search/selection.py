@@ -78,7 +78,7 @@ class Selection:
     rounds: list[Round] = field(default_factory=list)
     known: dict[frozenset[str], Hypothesis] = field(default_factory=dict)
     behind: set[tuple[Any, ...]] = field(default_factory=set)
-    sought: set[frozenset[str]] = field(default_factory=set)
+    refits: dict[frozenset[str], Hypothesis] = field(default_factory=dict)
     weighed: set[tuple[frozenset[str], str]] = field(default_factory=set)
 
     def run(self, base: Hypothesis, most: int = MOST) -> Hypothesis:
@@ -89,7 +89,7 @@ class Selection:
             found = self.tried_on(current) if len(self.adopted(current)) < most else None
             self.rounds += [found] if found else []
             if found and found.chosen:
-                better = self.settled(self.workers.map([("refitted", found.hypotheses[found.chosen])])[0])
+                better = self.settled(self.refitted(found.hypotheses[found.chosen]))
             else:
                 better = self.exchanged(current) or (found and self._paired(found, most)) or current
             if better.rmse > BETTER * visited.get(better.names, np.inf):
@@ -200,7 +200,7 @@ class Selection:
         best = min(pairs, key=lambda hypothesis: hypothesis.cv_rmse, default=current)
         if not self.needed(current, best, count * (count - 1) // 2) or self.share(current, best) < NAMED:
             return None
-        return self.settled(self.workers.map([("refitted", best)])[0])
+        return self.settled(self.refitted(best))
 
     def settled(self, current: Hypothesis) -> Hypothesis:
         """Exchange adopted effects for better ones, and drop those that are not needed, until neither helps."""
@@ -235,7 +235,7 @@ class Selection:
                 more = len(best.values) - len(current.values)
                 better = (clear or more < 0) and self.share(current, best) > (NAMED if more > 0 else 0.0)
                 if better or self.tied(current, best):
-                    return self.workers.map([("refitted", best)])[0]
+                    return self.refitted(best)
         return None
 
     def _extensions(
@@ -253,11 +253,18 @@ class Selection:
         least = min((hypothesis.rmse for hypothesis in hypotheses.values()), default=0.0)
         ranked = sorted(hypotheses, key=lambda name: hypotheses[name].rmse)
         best = [name for name in ranked[:CONTENDERS] if hypotheses[name].rmse < WITHIN * least]
-        close = [name for name in best if hypotheses[name].names not in self.sought]
+        close = [name for name in best if hypotheses[name].names not in self.refits]
         again = self.workers.map([("refitted", hypotheses[name]) for name in close])
-        self.known |= {hypothesis.names: hypothesis for hypothesis in again}
-        self.sought |= {hypothesis.names for hypothesis in again}
+        found = {hypothesis.names: hypothesis for hypothesis in again}
+        self.known |= found
+        self.refits |= found
         return {**hypotheses, **dict(zip(close, again, strict=True))}
+
+    def refitted(self, hypothesis: Hypothesis) -> Hypothesis:
+        """Fitted again from other starts, unless these led to it already."""
+        if self.refits.get(hypothesis.names) is not hypothesis:
+            (self.refits[hypothesis.names],) = self.workers.map([("refitted", hypothesis)])
+        return self.refits[hypothesis.names]
 
     def _reduced(self, current: Hypothesis, names: Sequence[str]) -> list[Hypothesis]:
         """Without one effect each. Fitted from here even where it is known: from here it may fit better than from

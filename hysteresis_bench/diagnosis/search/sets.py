@@ -19,7 +19,7 @@ def best_of_all(selection: Selection, current: Hypothesis) -> Hypothesis:
         better = [one for one in selection.known.values() if takes_the_place(selection, one, current)]
         if not better:
             break
-        current = selection.workers.map([("refitted", selection.simplest(better))])[0]
+        current = selection.refitted(selection.simplest(better))
     return current
 
 
