@@ -30,6 +30,7 @@ Family: TypeAlias = Literal[
     "law",
     "curve beside the law",
     "damping beside the law",
+    "inertia beside the law",
     "curve of the input",
     "dynamics before the law",
     "curve of the output",
@@ -136,8 +137,7 @@ class Effect(ABC):
     mistaken_for: ClassVar[Mapping[str, str]] = MappingProxyType({})
     """Other effects by name, and why data may not tell them from it, as a sentence ends. One of the two may say so."""
     affine: ClassVar[bool] = False  # is the output affine in what is wrapped? then so it is in its affine parameters
-    relaxes: ClassVar[bool] = False
-    """Whether of a step the output rises steadily to the whole step, as of a mixture of relaxations."""
+    relaxes: ClassVar[bool] = False  # does the output rise steadily to a whole step, as of a mixture of relaxations?
     linear: ClassVar[tuple[str, ...]] = ()
     """Parameters in which the output is affine, jointly with what is wrapped: amplitudes of what is merely added."""
     estimates: ClassVar[int] = 0

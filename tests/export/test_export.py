@@ -238,7 +238,8 @@ def test_c_and_python_say_what_predict_says(case, tmp_path, compiler):
 REFUSED = {
     **dict.fromkeys(("temperature-sensitivity", "response-with-temperature"), "a step is given time and input alone"),
     "late-input": "needs the input to come",
-    **dict.fromkeys(("viscous-damping", "damping-curve"), "which needs the next sample"),
+    "clock-error": "its clock runs ahead",
+    **dict.fromkeys(("viscous-damping", "damping-curve", "inertia"), "which needs the next sample"),
 }
 
 

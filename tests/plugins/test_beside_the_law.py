@@ -52,6 +52,16 @@ def test_a_dashpot_adds_a_force_that_goes_with_the_rate():
     np.testing.assert_array_equal(still, 6.0 * time**2)
 
 
+def test_a_mass_adds_a_force_that_goes_with_the_acceleration():
+    """Of a cubic the central difference of central differences is the second derivative itself, of even samples."""
+    time = np.linspace(0.0, 2.0, 401)
+    signal = Record(time, time**3, None).signal
+    y = applied("inertia", signal, mass=-0.25)
+    np.testing.assert_allclose(y[2:-2], (2.0 * time**3 - 0.25 * 6.0 * time)[2:-2], rtol=1e-9)
+    still = applied("inertia", replace(signal, timed=False), mass=-0.25)
+    np.testing.assert_array_equal(still, 2.0 * time**3)
+
+
 @pytest.mark.parametrize(
     ("force", "within"),
     [

@@ -68,6 +68,16 @@ def test_behind_a_late_input_the_output_is_that_of_a_later_one():
     np.testing.assert_allclose(y, 2.0 * np.interp(uneven + 0.2, uneven, drive), atol=1e-12)
 
 
+@pytest.mark.parametrize("rate", [0.013, -0.02])
+def test_a_clock_that_runs_fast_shows_what_comes_later(rate):
+    y = applied("clock-error", record().signal, rate=rate)
+    np.testing.assert_allclose(y, 2.0 * np.interp(TIME + rate * (TIME - TIME[0]), TIME, DRIVE), atol=1e-12)
+    uneven = 3.0 + np.sort(np.random.default_rng(1).uniform(0.0, 5.0, 90))
+    drive = np.sin(3.0 * uneven)
+    y = applied("clock-error", Signal(uneven, drive[:, None]), rate=rate)
+    np.testing.assert_allclose(y, 2.0 * np.interp(uneven + rate * (uneven - uneven[0]), uneven, drive), atol=1e-12)
+
+
 def test_creep_keeps_the_static_gain_and_grows_with_the_logarithm_of_time():
     time = np.concatenate([[-1e-6], np.geomspace(1e-6, 1e5, 2000)])
     step = Signal(time, np.where(time > 0, 1.0, 0.0)[:, None])

@@ -18,6 +18,10 @@ def ahead(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
     raise ValueError("it needs the input to come, as that is recorded later than it acts")
 
 
+def another_clock(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
+    raise ValueError("its clock runs ahead of the input's, or behind it by more and more")
+
+
 def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
     if effect.terms:
         raise ValueError("its terms are made of a whole record, samples to come included")
