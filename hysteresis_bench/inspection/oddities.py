@@ -16,16 +16,14 @@ from hysteresis_bench.data.faults.dropouts import dropouts_told
 from hysteresis_bench.data.faults.hidden_turns import hidden_turns_told
 from hysteresis_bench.data.faults.spikes import spikes_told
 from hysteresis_bench.data.faults.stuck import stuck_told
-from hysteresis_bench.data.units import frequency_in, seconds_in
+from hysteresis_bench.data.units import seconds_in
 from hysteresis_bench.fit.checks.faulty_records import jumps_told
 from hysteresis_bench.fit.settling import is_closed
+from hysteresis_bench.inspection.excitation import TURN, alike, amplitudes, turns, unexcited
 from hysteresis_bench.inspection.few_samples import few_told
-from hysteresis_bench.kernels.turning_points import turning_points
 from hysteresis_bench.kernels.white_noise import white_noise_rms
 from hysteresis_bench.signals import Record
 
-TURN = 0.05
-"""Share of the input's range beyond which a reversal is meant."""
 SMALLEST = 1e-6
 """Share of the range that is rounding."""
 FALSE, RESTING, OPEN, DRIFTING, JITTER, NOISY = 3, 0.05, 0.03, 0.03, 0.05, 0.002
@@ -38,13 +36,6 @@ FLAT = 5
 """Samples in a row at the largest output that are no accident."""
 CORNERS = 20
 """Samples of a cycle below which corners are cut."""
-CURVES = 3
-"""Records that each go one way from which they are reversal curves."""
-ALIKE = 0.1
-"""Relative difference up to which amplitudes and frequencies are one."""
-STEADY = 1.3
-"""Ratio of a record's upper to its lower quartile of frequencies up to which it has one: half cycles of few samples,
-and noise on a reversal, spread them."""
 
 
 def oddities(records: Sequence[Record]) -> tuple[str, ...]:
@@ -68,24 +59,7 @@ def oddities(records: Sequence[Record]) -> tuple[str, ...]:
     found = [said for record in records if record.time.size > 3 and (said := _constant(record))]
     found += [said for record in moving for look in looks if (said := look(record))]
     found += [said] if (said := few_told(records)) else []
-    return (*found, *_ahead(records), *_alike(moving))
-
-
-def turns(record: Record, share: float = TURN) -> Array:
-    """Where the input turns by more than a share of its range, rising indices."""
-    values = np.ascontiguousarray(record.input, dtype=float)
-    return np.asarray(turning_points(values, share * float(np.ptp(values))))
-
-
-def amplitudes(record: Record) -> Array:
-    """Half the way of every half cycle between two reversals, (half cycles,), unit of the input."""
-    return np.asarray(np.abs(np.diff(record.input[turns(record)])) / 2.0)
-
-
-def frequencies(record: Record) -> Array:
-    """Quartiles of its half cycles between meant reversals, (3,), cycles a unit of time; NaN with fewer than two."""
-    at = record.time[turns(record)]
-    return np.quantile(0.5 / np.diff(at), (0.25, 0.5, 0.75)) if at.size > 1 else np.full(3, np.nan)
+    return (*found, *_ahead(records), *unexcited(moving))
 
 
 def _constant(record: Record) -> str:
@@ -141,7 +115,7 @@ def _plateau(record: Record) -> str:
 def _open(record: Record) -> str:
     """The last cycle between two reversals; of a single cycle, its ends."""
     at, spread = turns(record), float(np.ptp(record.output)) if record.output is not None else 0.0
-    several = at.size > 3 and _one(amplitudes(record))
+    several = at.size > 3 and alike(amplitudes(record))
     if record.output is None or spread == 0.0 or not (several or (at.size < 3 and is_closed(record))):
         return ""
     first, last = (at[-3], at[-1]) if several else (0, -1)
@@ -167,7 +141,7 @@ def _drift(record: Record) -> str:
     left = float(np.std(middles - slope * at - level))
     moved = abs(float(slope)) * (middles.size - 1)
     share = moved / (float(np.ptp(record.output)) or 1.0)
-    if share <= DRIFTING or moved <= 3.0 * left or not _one(amplitudes(record)):
+    if share <= DRIFTING or moved <= 3.0 * left or not alike(amplitudes(record)):
         return ""
     return (
         f"{record.name}: the middle of the output drifts by {share:.0%} of its range in {middles.size} cycles: fit "
@@ -245,39 +219,6 @@ def _turning(record: Record) -> float:
     area = float(np.sum(np.diff(u) * (y[1:] + y[:-1]) / 2.0))
     error = white_noise_rms(y, 2) * float(np.sqrt(np.sum(((u[2:] - u[:-2]) / 2.0) ** 2)))
     return float(rises * area / rectangles) if abs(area) > SIGNIFICANT * error else 0.0
-
-
-def _alike(records: Sequence[Record]) -> list[str]:
-    """What all records together do not excite."""
-    found = []
-    if 0 < len(records) < CURVES and not any(turns(record).size for record in records):
-        found.append(
-            "the input never turns: one way tells no hysteresis from a curve of the input. Add the way back, and loops "
-            "within it."
-        )
-    sizes = [amplitudes(record) for record in records]
-    every = np.concatenate(sizes) if sizes else np.zeros(0)
-    if every.size > 1 and _one(every):
-        found.append(
-            f"one amplitude only ({np.median(every):.4g}): what small loops do, and whether the law is right for them, "
-            f"cannot be seen. Add a record with growing or nested amplitudes."
-        )
-    timed = [record for record in records if record.timed]
-    rates = np.array([frequencies(record) for record in timed]).reshape(-1, 3)
-    rates = rates[np.isfinite(rates[:, 1])]
-    if rates.size and _one(rates[:, 1]) and np.all(rates[:, 2] <= STEADY * rates[:, 0]):
-        about = frequency_in(timed[0].units.get("time", "1"), float(np.median(rates[:, 1])))
-        found.append(
-            f"one frequency only (about {about}): lags, delays and eddy currents cannot be told apart, nor told from "
-            f"the law. Add a record at another speed."
-        )
-    return found
-
-
-def _one(values: Array) -> bool:
-    """Whether all of them are alike; the first and the last may be parts."""
-    inner = values[1:-1] if values.size > 4 else values
-    return bool(np.ptp(inner) <= ALIKE * np.max(np.abs(inner)))
 
 
 def _longest(holds: Array) -> tuple[int, int]:

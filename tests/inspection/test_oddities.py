@@ -85,6 +85,11 @@ def test_a_record_of_many_frequencies_is_not_said_to_have_one():
     chirp = np.sin(2 * np.pi * (0.5 * TIME + 0.8 * TIME**2))
     said = " ".join(oddities([replace(record(), input=5.0 * chirp, output=chirp)]))
     assert "one frequency only" not in said
+    phases = np.random.default_rng(3).uniform(0.0, 2 * np.pi, (20, 6, 1))
+    tones = np.linspace(1.0, 10.0, 6)[:, None]
+    for phase in phases:
+        multisine = np.sin(2 * np.pi * tones * TIME + phase).sum(axis=0)
+        assert "one frequency only" not in " ".join(oddities([Record(TIME, multisine, multisine)]))
     noisy = replace(record(), input=record().input + noise(0.002))
     assert "one frequency only (about 2" in " ".join(oddities([noisy]))
 
