@@ -81,7 +81,9 @@ def _promised(fitted: FittedModel, known: Dataset, level: int) -> list[str]:
         return ["The model file keeps no interval; fit again for one."]
     ranges = fitted.data.get("ranges", {}).get("input", ())
     beyond = (sentence for record in known.records for sentence in fitted.interval.beyond(record, ranges))
-    return [fitted.interval.words(level, fitted.units["output"]), *beyond]
+    asked = dict.fromkeys(record.output is not None for record in known.records)
+    said = dict.fromkeys(fitted.interval.words(level, fitted.units["output"], measured) for measured in asked)
+    return [*said, *beyond]
 
 
 def _within(known: Dataset, predicted: Dataset) -> dict[str, float]:

@@ -163,7 +163,7 @@ def fit_records(
         raise UserError("fit", f"{error}.") from None
     ready, passed_as = best.dataset, replace(preparation, settle=best.repeats)
     fitted = fitted_model(problem, values, errors, dataset=ready, model=model, settings=settings, preparation=passed_as)
-    fitted = replace(fitted, interval=interval(problem, values, ready.held_out, best.left_out))
+    fitted = replace(fitted, interval=interval(problem, values, ready.held_out, fitted.system, best.left_out))
     parameters = _parameter_table(problem, fitted)
     agrees, agreement = (True, SOLVED) if weights else agreement_of(problem, best.found, best.losses)
     responses = simulated(system, ready.records, values)

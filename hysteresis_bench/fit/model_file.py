@@ -95,7 +95,7 @@ class FittedModel:
             if not np.all(np.isfinite(output)):
                 raise UserError(record.name, "the model's response to this record is not finite.")
             skipped = self.preparation.skipped(record).history
-            around = self.interval.around(output, level) if self.interval else {}
+            around = self.interval.around(output, level, record.output is not None) if self.interval else {}
             units = {**record.units, **dict.fromkeys(("output", *around), self.units["output"])}
             return replace(record, output=output, history=skipped, units=units, columns={**record.columns, **around})
 

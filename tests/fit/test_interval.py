@@ -65,6 +65,27 @@ def test_held_out_records_count_as_they_are():
     assert "with a probability of 50%" in two.words(90, "um")
 
 
+def test_without_an_output_it_holds_the_zeros_of_other_records():
+    seen, unseen = data((*SEEN, "sweep", "stairs")), data(("mixed",))
+    zeros = dict(zip(seen.names, (0.0, 2.1, -1.7, 0.9, -0.6), strict=True))
+    moved = seen.map(lambda record: replace(record, output=record.output + zeros[record.name]))
+    found = fit(moved, "bouc-wen", ["record-offset"], options=QUICK).model
+    (own,) = within(found, unseen, 90)
+    assert own > 0.85
+    blind = found.predict(unseen.map(lambda record: replace(record, output=None)), 90).records[0]
+    measured = unseen.records[0].output
+    assert 1.7 < np.max(blind.columns["output_high"] - blind.output) < 2.4
+    for zero in (-1.6, 0.0, 1.6):
+        inside = np.abs(measured + zero - blind.output) <= blind.columns["output_high"] - blind.output
+        assert np.mean(inside) > 0.9
+    assert "where no output was measured" in found.interval.words(90, "um", measured=False)
+    assert "where no output" not in found.interval.words(90, "um")
+
+
+def test_without_an_output_it_is_the_same_where_records_have_nothing_of_their_own(model):
+    assert model.interval.unmeasured == model.interval.half_widths
+
+
 def test_what_lies_beyond_the_fit_is_told(model):
     (record,) = data(("slow",)).records
     ranges = model.data["ranges"]["input"]

@@ -40,7 +40,7 @@ def edited(written, tmp_path, keys, value):
         (("effects", 0, "parameters", "time_constant", "value"), -1.0, "time_constant = -1 must be at least 0"),
         (("preparation", "skip"), -5, "skip = -5 must be finite and at least 0"),
         (("preparation", "settle"), 10**9, "settle = 1000000000 must lie from 0 to"),
-        (("interval", "half_widths", "90"), -1.0, "half_widths must not be below 0"),
+        (("interval", "half_widths", "90"), -1.0, "half_widths and unmeasured must not be below 0"),
     ],
 )
 def test_a_file_that_was_edited_says_where_it_is_wrong(written, tmp_path, keys, value, words):

@@ -68,10 +68,9 @@ def conclude(
         adopted = (*adopted, registry.DESCRIPTION)
         waterfall = (*waterfall, (registry.DESCRIPTION, after.fitted.rmse))
         left = remainder(after, evidence, found.thin.fitted_values(found.final) + len(left.equation.terms))
-    model = replace(
-        _model(after, prepared, question),
-        interval=interval(after.problem, after.values, prepared.dataset.held_out, _left_out(found)),
-    )
+    model = _model(after, prepared, question)
+    held_out = prepared.dataset.held_out
+    model = replace(model, interval=interval(after.problem, after.values, held_out, model.system, _left_out(found)))
     alone = len(dataset.records) == 1
     outcome = Outcome(stages.before, after, adopted, found, ties, left, dataset.units, question.model, doubt, alone)
     waterfall = tuple((f"{name} (stand-in)" if name in outcome.stand_ins else name, rmse) for name, rmse in waterfall)

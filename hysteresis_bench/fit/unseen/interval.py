@@ -3,8 +3,10 @@
 Every fitted record is predicted by a fit to the others, every held-out one by the fit itself. Where they are alike with
 the next record, the largest of their own quantiles holds that share of its samples with a probability of records /
 (records + 1), whatever the noise or the law [1]. Ours: a record, not a sample, is what is exchanged, as errors of
-neighbouring samples are alike; and the fits differ by the record that is left out, as in the jackknife. Ours too: a
-record on which a curve of the time, the path or the temperature would be extrapolated has no say where others have.
+neighbouring samples are alike; and the fits differ by the record that is left out, as in the jackknife. Where a zero or
+the like is estimated on every record, its output is needed for that: without one stands what the fitted records have in
+common, and the interval is wider by how far they lie from it. Ours too: a record on which a curve of the time, the path
+or the temperature would be extrapolated has no say where others have.
 
 [1] V. Vovk, A. Gammerman, G. Shafer, Algorithmic Learning in a Random World, Springer (2005); for records of several
 samples R. Dunn, L. Wasserman, A. Ramdas, J. Am. Stat. Assoc. 118 (2023) 2491.
@@ -13,12 +15,13 @@ samples R. Dunn, L. Wasserman, A. Ramdas, J. Am. Stat. Assoc. 118 (2023) 2491.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.compose import System
 from hysteresis_bench.data.units import rounded
 from hysteresis_bench.fit.json_values import number_of, value_of
 from hysteresis_bench.fit.least_squares import split
@@ -61,7 +64,7 @@ def further(record: Record, ranges: Sequence[float]) -> str:
 
 @dataclass(frozen=True)
 class Interval:
-    """half_widths : unit of the output, a level of `LEVELS` each
+    """half_widths : unit of the output, a level of `LEVELS` each;  unmeasured : of records whose output is not known
     records : how many were predicted unseen; 0 where a lone record's own blocks were
     speeds : lowest and highest RMS rate of the fitted inputs, their unit per unit of time
     duration, rest : of the longest fitted record, and the longest that an input stays where it is, in units of time;
@@ -69,19 +72,25 @@ class Interval:
     """
 
     half_widths: Mapping[int, float]
+    unmeasured: Mapping[int, float]
     records: int
     speeds: tuple[float, float]
     duration: float = np.inf
     rest: float = np.inf
 
-    def around(self, output: Array, level: int) -> dict[str, Array]:
-        """The columns `LOW` and `HIGH`, (samples,)."""
-        half = self.half_widths[level]
+    def around(self, output: Array, level: int, measured: bool) -> dict[str, Array]:
+        """The columns `LOW` and `HIGH`, (samples,), of a record whose output was measured, or was not."""
+        half = (self.half_widths if measured else self.unmeasured)[level]
         return {LOW: output - half, HIGH: output + half}
 
-    def words(self, level: int, unit: str) -> str:
-        """What it promises."""
-        said = f"{level} % interval: ±{self.half_widths[level]:.3g}{'' if unit == '1' else f' {unit}'}"
+    def words(self, level: int, unit: str, measured: bool = True) -> str:
+        """What it promises of records whose output was measured, or was not."""
+        half = (self.half_widths if measured else self.unmeasured)[level]
+        said = f"{level} % interval: ±{half:.3g}{'' if unit == '1' else f' {unit}'}"
+        if half != self.half_widths[level]:
+            said += (
+                " where no output was measured, as what every record has of its own, such as a zero, is not known there"
+            )
         if not self.records:
             return (
                 f"{said}, from blocks left out of the one record that was fitted: it holds for excitations like that "
@@ -121,6 +130,7 @@ class Interval:
         """For model.json."""
         return {
             "half_widths": {str(level): half for level, half in self.half_widths.items()},
+            "unmeasured": {str(level): half for level, half in self.unmeasured.items()},
             "records": self.records,
             "speeds": list(self.speeds),
             **{key: one for key, one in (("duration", self.duration), ("rest", self.rest)) if np.isfinite(one)},
@@ -134,15 +144,21 @@ def interval_of(content: Any) -> Interval | None:
     halves = value_of(content, "half_widths", dict)
     slow, fast = value_of(content, "speeds", list)
     widths = {level: number_of(halves, str(level)) for level in LEVELS}
-    if min(widths.values()) < 0.0:
-        raise ValueError("interval: half_widths must not be below 0")
+    # files of before tell nothing of records without an output
+    others = value_of(content, "unmeasured", dict) if "unmeasured" in content else halves
+    wider = {level: number_of(others, str(level)) for level in LEVELS}
+    if min(*widths.values(), *wider.values()) < 0.0:
+        raise ValueError("interval: half_widths and unmeasured must not be below 0")
     longest = {key: number_of(content, key) for key in ("duration", "rest") if key in content}
-    return Interval(widths, value_of(content, "records", int), (float(slow), float(fast)), **longest)
+    return Interval(widths, wider, value_of(content, "records", int), (float(slow), float(fast)), **longest)
 
 
-def interval(problem: Problem, values: Array, held_out: Sequence[Record], left_out: Array | None = None) -> Interval:
+def interval(
+    problem: Problem, values: Array, held_out: Sequence[Record], system: System, left_out: Array | None = None
+) -> Interval:
     """Of a fit; values : (dimension,), in units;  held_out : records that it has not seen.
 
+    system : the problem's, with what its effects remember of the fitted records
     left_out : (scored samples,) errors by fits without them, where they are known; None: they are made here"""
     records = problem.records
     point = np.clip(problem.space.to_unit(values[:, None])[:, 0], 0.0, 1.0)
@@ -151,15 +167,30 @@ def interval(problem: Problem, values: Array, held_out: Sequence[Record], left_o
     if left is None:
         left = left_out_errors(problem, point, cut(records)) if alone else unseen_errors(problem, point)
     column = values[:, None]
-    new = [problem.system.respond(record, column)[record.scored, 0] - record.measured for record in held_out]
+    new = [record.measured - problem.system.respond(record, column)[record.scored, 0] for record in held_out]
     beyond = extrapolated((effect for _, effect in problem.system.effects), records)
-    every = split(left, records)
-    errors = [*([one for k, one in enumerate(every) if k not in beyond] or every), *new]
-    widths = {level: max(float(np.quantile(np.abs(one), level / 100.0)) for one in errors) for level in LEVELS}
+    told = list(zip(records, split(left, records), strict=True))
+    kept = [one for k, one in enumerate(told) if k not in beyond] or told
+    kept += zip(held_out, new, strict=True)
+    widths = _widths([error for _, error in kept])
+    blind = _widths([error + _own(problem.system, system, record, column) for record, error in kept])
+    unmeasured = {level: max(width, blind[level]) for level, width in widths.items()}
     speeds = [speed(record) for record in records]
     # of less than a sample's step nothing is known
     rests = [max(rest(record), float(np.median(np.diff(record.time[record.scored])))) for record in records]
-    return Interval(widths, len(errors) - alone, (min(speeds), max(speeds)), max(map(duration, records)), max(rests))
+    longest = max(map(duration, records))
+    return Interval(widths, unmeasured, len(kept) - alone, (min(speeds), max(speeds)), longest, max(rests))
+
+
+def _widths(errors: Sequence[Array]) -> dict[int, float]:
+    return {level: max(float(np.quantile(np.abs(one), level / 100.0)) for one in errors) for level in LEVELS}
+
+
+def _own(system: System, remembering: System, record: Record, column: Array) -> Array:
+    """What the effects estimate of a record's output, beyond what they remember of others: (scored samples,)."""
+    unmeasured = replace(record, output=None)
+    change: Array = system.respond(record, column) - remembering.respond(unmeasured, column)
+    return change[record.scored, 0]
 
 
 def speed(record: Record) -> float:
