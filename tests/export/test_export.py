@@ -127,7 +127,10 @@ EFFECTS = {
         "lowest": -2.5, "highest": 2.0, **{f"bend{k}": 0.1 * (-1) ** k for k in range(10) if k != 5},
     },
     "play-bank": {"reach": 1.5, **{f"weight{k}": 0.05 for k in range(1, 11)}},
-    "record-wave": {"duration": 1.6, "frequency": 7.0, **{f"amplitude{k}": 0.1 * k for k in range(5)}},
+    "record-wave": {
+        **{"duration": 1.6, "frequency": 7.0, "amplitude_of_2": 0.1, "amplitude_of_3": 0.0},
+        **{f"amplitude{k}": 0.1 * k for k in range(5)},
+    },
     "zero-with-time": {"duration": 1.6, **{f"zero{k}": 0.1 * k for k in range(1, 7)}},
 }  # fmt: skip
 SETTINGS = {"record-offset": {"default": 0.25}}

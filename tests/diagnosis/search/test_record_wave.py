@@ -14,7 +14,7 @@ from hysteresis_bench.diagnosis.search.selection import Selection
 from hysteresis_bench.diagnosis_study.hidden_effects import HiddenEffects
 from hysteresis_bench.signals import joined
 
-FREQUENCY, SIZE = 31.7, 0.4
+FREQUENCY, SIZE, OVERTONE = 31.7, 0.4, 0.2
 
 
 @pytest.fixture(scope="module", params=["own phases", "one clock"])
@@ -24,7 +24,9 @@ def asked(request):
     phases = (0.3, 2.1, 4.4) if request.param == "own phases" else (0.3, 0.3, 0.3)
 
     def humming(record, phase):
-        return record.output + SIZE * np.cos(2.0 * np.pi * FREQUENCY * record.time + phase)
+        turns = 2.0 * np.pi * FREQUENCY * record.time + phase
+        overtone = 0.0 if request.param == "one clock" else OVERTONE * np.cos(3.0 * turns + phase**2)
+        return record.output + SIZE * np.cos(turns) + overtone
 
     records = tuple(
         replace(record, output=humming(record, phase)) for record, phase in zip(seen.records, phases, strict=True)
@@ -48,6 +50,7 @@ def test_its_frequency_and_its_amplitude_are_the_true_ones(asked):
     _, selection, found, records = asked
     assert found.values["record-wave.frequency"] == pytest.approx(FREQUENCY, rel=1e-3)
     assert found.values["record-wave.amplitude2"] == pytest.approx(SIZE, rel=0.1)
+    assert abs(found.values["record-wave.amplitude_of_3"]) == pytest.approx(OVERTONE, rel=0.1)
     system, values = selection.fitter.fitted(found)
     silent = replace(records[0], output=None)
     assert np.array_equal(  # without an output its phase is not known
