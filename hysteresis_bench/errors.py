@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 
 class UserError(Exception):
@@ -34,10 +34,10 @@ def printable(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def nearest(name: str, known: Iterable[str]) -> str:
-    """`Known: a, b. Did you mean "b"?` for an unknown name."""
+def nearest(name: str, known: Iterable[str], unlike: Collection[str] = ()) -> str:
+    """`Known: a, b. Did you mean "b"?` for an unknown name;  unlike : known ones that cannot be meant."""
     names = sorted(known)
-    close = difflib.get_close_matches(name, names, n=1, cutoff=0.5)
+    close = difflib.get_close_matches(name, [one for one in names if one not in unlike], n=1, cutoff=0.5)
     meant = f' Did you mean "{close[0]}"?' if close else ""
     return f"Known: {', '.join(names) or 'none'}.{meant}"
 

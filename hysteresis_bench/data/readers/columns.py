@@ -131,7 +131,7 @@ def _missing(role: str, asked: str | None, names: Sequence[str], headed: bool, w
         return (
             f'"{asked or role}" is no column of numbers, but {why}. Save it as one, or give another with --{role} NAME.'
         )
-    known = nearest(asked or role, names[:LISTED])
+    known = nearest(asked or role, names[:LISTED], unlike=[one for one in ROLES if asked is None])
     if not headed:
         return (
             f'no column "{asked or role}": there is no header, only {_counted(names)}. '

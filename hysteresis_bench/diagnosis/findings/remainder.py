@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,9 +18,9 @@ from hysteresis_bench.diagnosis.evidence.residual_tests import OVERALL, Residual
 from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.findings.stages import Stage, left_by
 from hysteresis_bench.diagnosis.findings.terms import Equation, find_terms
+from hysteresis_bench.diagnosis.reading.measured_apart import measured_apart
 from hysteresis_bench.diagnosis.search.selection import MISFIT
 from hysteresis_bench.fit.identifiability.combinations import listed
-from hysteresis_bench.kernels.root_mean_square import rms
 from hysteresis_bench.statistics import LEVEL as OF_A_TEST
 
 REMAINS = 1.1
@@ -44,16 +44,6 @@ UNLIKELY = 0.01
 """p-value below which noise of one loudness does not come in such bursts, and below which what was held out is missed
 by more than what was fitted."""
 
-HALVES = ("first", "second")
-OF_A_SCALE = 0.5
-"""Of the largest change of a scale, from which a part is told to have changed."""
-OF_IT = 0.6
-"""Share of what is left over the noise that other scales must explain to be told. Of 104 fits of a wrong law to several
-records they explain that in none (half of that in 19), and in five of six of the maker's law to records whose scales
-differ by up to 6 %; twice of it is never."""
-ALIKE = 0.9
-"""Share of what scales of halves explain, from which those of whole records are told."""
-
 BURSTS = "What is left is loud at some times and quiet at others, as noise seldom is."
 
 OF_THE_NOISE = ("noise-floor", "whiteness", "offset")
@@ -71,7 +61,7 @@ class Remainder:
         are no louder than the noise
     louder : where nothing was fitted, clearly more is left than where it was
     shape : a sentence, where it repeats itself along the input or the output, comes in bursts, is far above the noise
-        of the record that it is left of, or is that of records, or halves of them, at other scales
+        of the record that it is left of, or is that of records, or halves of them, at other scales or times
     alone : records in which it depends on something by itself, though not in all together. In made noise that is white
         or falls off within some samples one does in 1 of 160 cases, in 1/f noise in 25 of 30
     """
@@ -118,8 +108,8 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     telling = _telling(tests)
     residuals, simulated = left_by(stage, views)
     louder = _louder(stage, residuals, floor, parameters)
-    responses = {view.record.name: part[view.record.scored] for view, part in zip(views, simulated, strict=True)}
-    missed = _missed_by_its_own_noise(stage, views, residuals, floor) or _at_other_scales(responses, residuals, floor)
+    apart = measured_apart([view.record for view in views], simulated, residuals, floor)
+    missed = _missed_by_its_own_noise(stage, views, residuals, floor) or apart
     if stage.fitted.rmse <= floor or not (loud or telling):
         return Remainder(None, bool(missed), False, False, louder, missed)
     equation = find_terms([view.record for view in views], residuals, simulated)
@@ -163,47 +153,6 @@ def _missed_by_its_own_noise(stage: Stage, views: Sequence[View], residuals: Seq
         f"{view.record.name} is missed by {rounded(most)} times its own noise, {own:.3g} where that of all records is "
         f"{floor:.3g}: what changes faster than the samples of another record follow may pass for noise there."
     )
-
-
-def _at_other_scales(responses: Mapping[str, Array], residuals: Sequence[Array], floor: float) -> str:
-    """A sentence, where a scale for every record, or for each half of one, explains `OF_IT` of what is left beside a
-    zero of its own, `MISFIT` times the noise or more; else "". So it is where a sensor, or its range, was exchanged.
-
-    responses, residuals : (scored samples,) of each record"""
-    records = list(zip(responses, responses.values(), residuals, strict=True))
-    halves = [
-        (f"the {half} half of {name}", own, left)
-        for name, response, residual in records
-        for half, own, left in zip(HALVES, np.array_split(response, 2), np.array_split(residual, 2), strict=True)
-    ]
-    (share, scales), (finer, of_halves) = _rescaled(records, floor), _rescaled(halves, floor)
-    of = "each record"
-    if share < ALIKE * finer:
-        share, scales, of = finer, of_halves, "each half of a record"
-    if share < OF_IT:
-        return ""
-    usual = float(np.median([*scales.values()]))
-    most = max(abs(scale - usual) for scale in scales.values())
-    told = [f"{name} {scale / usual:.3g}" for name, scale in scales.items() if abs(scale - usual) > OF_A_SCALE * most]
-    return (
-        f"A scale of its own for {of} explains {100 * share:.0f} % of it: {', '.join(told)} times as large as the "
-        "others. Was a sensor exchanged, or its range?"
-    )
-
-
-def _rescaled(parts: Sequence[tuple[str, Array, Array]], floor: float) -> tuple[float, dict[str, float]]:
-    """The share of what is left over the noise that a scale for each part explains, and the scales, by its name.
-
-    parts : name, response and residual of each, both without their means then"""
-    scales, before, after = {}, [], []
-    for name, response, residual in parts:
-        own, left = response - response.mean(), residual - residual.mean()
-        change = float(own @ left) / (float(own @ own) or 1.0)
-        scales[name] = 1.0 + change
-        before.append(left)
-        after.append(left - change * own)
-    missed, still = rms(np.concatenate(before)), rms(np.concatenate(after))
-    return ((missed**2 - still**2) / (missed**2 - floor**2) if missed > MISFIT * floor else 0.0), scales
 
 
 def _averaged(residuals: Sequence[Array], floor: float) -> list[Array]:

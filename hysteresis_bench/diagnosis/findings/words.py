@@ -256,10 +256,11 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
             f"{after.between:.2g} (RMS), {rounded(after.between / floor)} times the noise. Its error says little."
         )
     elif after.held_out and MISFIT * max(fitted, 1.0) < held_out <= WRONG * max(fitted, 1.0):
-        said.append(
+        said += [
             f"What was held out is missed by {rounded(held_out)} times the noise, what was fitted by {rounded(fitted)}:"
-            " what was fitted does not tell all. Fit what was held out too, and hold out another excitation."
-        )
+            " what was fitted does not tell all. Fit what was held out too, and hold out another excitation.",
+            *more_parts(found.full.stack.model),
+        ]
     if zeros := own_zeros(after, records, after.held_out is not None, outcome.unit):
         said.append(zeros)
     if outcome.cause:

@@ -9,7 +9,6 @@ import pytest
 from hysteresis_bench.diagnosis.evidence.autocorrelated import equally_loud
 from hysteresis_bench.diagnosis.findings.remainder import (
     Remainder,
-    _at_other_scales,
     _averaged,
     _hidden,
     _louder,
@@ -178,34 +177,6 @@ def test_a_few_samples_that_are_far_off_are_no_fault_of_a_record():
     view = Of(record=record, y=np.ones(1), noise=Of(floor=1.0))
     assert not _missed_by_its_own_noise(whole, [view], [part], 1.0)
     assert _missed_by_its_own_noise(whole, [view], [3.0 * part], 1.0)
-
-
-@pytest.mark.parametrize(("scale", "zero", "told"), [(1.07, 0.0, True), (1.0, 3.0, False), (1.0, 0.0, False)])
-def test_a_scale_that_changes_halfway_is_told_and_no_zero_that_does(scale, zero, told):
-    rng, time = np.random.default_rng(5), np.linspace(0.0, 4.0, 1000)
-    responses = {name: 40.0 * np.sin(2 * np.pi * f * time) for name, f in (("slow", 1.0), ("fast", 3.0), ("mid", 2.0))}
-    residuals = [rng.standard_normal(1000) for _ in responses]
-    residuals[1][500:] += (scale - 1.0) * responses["fast"][500:] + zero
-    said = _at_other_scales(responses, residuals, 1.0)
-    assert said.startswith("A scale of its own for each half of a record") == told
-    assert ("the second half of fast 1.07 times as large" in said) == told
-
-
-def test_scales_of_whole_records_are_told_as_theirs_beside_a_law_that_is_a_little_off():
-    rng, time = np.random.default_rng(6), np.linspace(0.0, 4.0, 1000)
-    scales = {"slow": 1.05, "fast": 0.96, "mid": 1.0, "last": 1.0}
-    made = {name: 40.0 * np.sin(2 * np.pi * (k + 1.0) * time) for k, name in enumerate(scales)}
-    off = [0.3 * np.cos(6 * np.pi * time) + rng.standard_normal(1000) for _ in made]
-    residuals = [(scales[name] - 1.0) * made[name] + part for name, part in zip(made, off, strict=True)]
-    said = _at_other_scales(made, residuals, 1.0)
-    assert said.startswith("A scale of its own for each record explains 9")
-    assert "slow 1.05, fast 0.96 times as large as the others" in said
-
-
-def test_no_scale_makes_up_for_a_wrong_shape():
-    time = np.linspace(0.0, 4.0, 1000)
-    response = 40.0 * np.sin(2 * np.pi * time)
-    assert _at_other_scales({"one": response}, [0.05 * response + 3.0 * np.cos(4 * np.pi * time)], 1.0) == ""
 
 
 def test_a_record_in_which_slow_noise_seems_to_have_a_cause_is_told():
