@@ -96,11 +96,12 @@ def _tests(name: str, views: Sequence[View], residuals: Sequence[Array]) -> Iter
     for kind, ways, nuisance, words in _dependences(views):
         answer = _weakest(residuals, ways, nuisance)
         yield test(kind, answer.statistic, answer.p, answer.share, words)
-    for kind, courses in (
-        ("input", [view.u for view in views]),
-        ("output", [view.y - part for view, part in zip(views, residuals, strict=True)]),
+    followed = [view.y - part for view, part in zip(views, residuals, strict=True)]
+    for kind, courses, steps in (
+        ("input", [view.u for view in views], [0.0] * len(views)),
+        ("output", followed, [view.noise.quantum for view in views]),
     ):
-        waves = ripple(residuals, courses)
+        waves = ripple(residuals, courses, steps)
         if waves is not None:
             often = f"{rounded(waves.cycles)} times over the range of" if waves.cycles else "along"
             words = f"repeats itself {often} the {kind}"

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.polynomial.legendre import legvander
 
 from hysteresis_bench.arrays import Array
-from hysteresis_bench.diagnosis.evidence.autocorrelated import FTest, f_test
+from hysteresis_bench.diagnosis.evidence.autocorrelated import FTest, f_test, left_over
 from hysteresis_bench.diagnosis.evidence.spectrum import largest_of
 from hysteresis_bench.kernels import periodicity
 
@@ -28,12 +28,15 @@ class Ripple:
     cycles: float
 
 
-def ripple(residuals: Sequence[Array], courses: Sequence[Array]) -> Ripple | None:
+def ripple(residuals: Sequence[Array], courses: Sequence[Array], steps: Sequence[float]) -> Ripple | None:
     """The clearest one; None where the samples lie too far apart for any.
 
     residuals : (samples,) a record;  courses : of what it may repeat itself along, as long
+    steps : to which a converter rounds each of the courses, 0 where it does not: with such a period its error repeats
+        itself, and is none of the device's
     """
-    found = periodicity.lines(courses, residuals)
+    rounding = [_wave(course / (step or np.inf)) for course, step in zip(courses, steps, strict=True)]
+    found = periodicity.lines(courses, [left_over(*part) for part in zip(residuals, rounding, strict=True)])
     if found is None:
         return None
     if not found.cycles.size:
@@ -41,6 +44,11 @@ def ripple(residuals: Sequence[Array], courses: Sequence[Array]) -> Ripple | Non
     clearest, low, span = float(found.cycles[0]), min(course.min() for course in courses), periodicity.span(courses)
     x = [(course - low) / span for course in courses]
     smooth = [legvander(2.0 * part - 1.0, periodicity.DEGREE)[:, 1:] for part in x]
-    angles = [2.0 * np.pi * clearest * part for part in x]
-    test = f_test(residuals, [np.column_stack([np.sin(part), np.cos(part)]) for part in angles], smooth)
+    beside = [np.column_stack(part) for part in zip(smooth, rounding, strict=True)]
+    test = f_test(residuals, [_wave(clearest * part) for part in x], beside)
     return Ripple(FTest(test.statistic, largest_of(found.looked_at, test.p), test.share), clearest)
+
+
+def _wave(cycles: Array) -> Array:
+    """Columns (samples, 2)."""
+    return np.column_stack([np.sin(2.0 * np.pi * cycles), np.cos(2.0 * np.pi * cycles)])

@@ -105,6 +105,22 @@ def test_a_ripple_is_placed(along: str) -> None:
     assert told[f"ripple-{along}"].share == pytest.approx(2.0 / 3.0, abs=0.1)
 
 
+@pytest.mark.parametrize("told", [True, False])
+def test_what_a_converter_rounds_is_no_ripple_and_hides_none(told: bool) -> None:
+    """Noise of a third of a step leaves a tenth of a step of the rounding, at the period of the grid."""
+    rng, step = np.random.default_rng(25), 0.05
+    time = np.arange(4000) / 1000.0
+    true = np.sin(2 * np.pi * 1.7 * time) + 0.3 * np.cos(2 * np.pi * 0.6 * time)
+    other = 0.01 * np.sin(2 * np.pi * true / 0.13) if told else 0.0
+    measured = step * np.round((true + other + 0.3 * step * rng.standard_normal(4000)) / step)
+    noise = replace(UNIT, rms=0.02, quantum=step)
+    names = found(told_of([Record(time, true, measured)], [measured - true], [noise]))
+    assert ("ripple-output" in names) == told
+    assert "ripple-output" in found(
+        told_of([Record(time, true, measured)], [measured - true], [replace(noise, quantum=0.0)])
+    )
+
+
 @pytest.mark.parametrize(
     "fault",
     [
