@@ -11,7 +11,7 @@ TIME = np.linspace(0.0, 2.0, 500)
 FAST = 12.0
 LIKELY = (
     *("cogging", "cubic-stiffness", "input-cyclic-error", "output-cyclic-error", "viscous-damping"),
-    *("asymmetry", "bias", "creep", "output-lag", "saturation"),
+    *("asymmetry", "bias", "clock-error", "creep", "inertia", "output-lag", "saturation"),
 )
 """What there is here, and what it may be taken for."""
 
@@ -59,6 +59,8 @@ def measured(device) -> Dataset:
         pytest.param(beside(lambda u, v: 0.25 * u**5), "parallel-curve", marks=pytest.mark.long),
         (beside(lambda u, v: 0.1 * v), "viscous-damping"),
         pytest.param(beside(lambda u, v: 0.1 * v * np.abs(v)), "damping-curve", marks=pytest.mark.long),
+        (beside(lambda u, v: -0.004 * np.gradient(v, TIME)), "inertia"),
+        (lambda u, v: np.interp(0.994 * TIME, TIME, loop(u)), "clock-error"),
         (beside(lambda u, v: 0.02 * np.sin(2 * np.pi * u / 0.17 + 0.5)), "cogging"),
         (fringes, "output-cyclic-error"),
         (lambda u, v: loop(u + 0.012 * np.sin(2 * np.pi * u / 0.15 + 1.1)), "input-cyclic-error"),

@@ -49,7 +49,7 @@ class Ceiling:
     named model;  advantage : of the black box, in standard errors of its mean square, paired over blocks
     columns : of the black box, in words;  left_out : in turn, in words, in so many folds;  unit : of the output
     floor : RMS below which nothing is judged;  noise : of the data;  repeats : by how much equal cycles differ, where
-    that is clearly more;  of_the_law : another law is known to do better
+    that is clearly more;  told : what is left is told elsewhere, as another law's or as noise
     """
 
     named: float
@@ -63,7 +63,7 @@ class Ceiling:
     floor: float
     noise: float
     repeats: float | None
-    of_the_law: bool = False
+    told: bool = False
 
     @property
     def heard(self) -> float:
@@ -115,16 +115,16 @@ class Ceiling:
             f"{said} The black box does not do clearly better: what is left, {rounded(self.named / self.floor)} times "
             "the noise, is nothing that it finds in the input's history or in a smooth course of time or path."
         )
-        if self.of_the_law:  # a black box beside the wrong law may not find what the right one knows
+        if self.told:  # a black box beside the wrong law may not find what the right one knows
             return said
         return (
             f"{said} Rather than search for further effects of these, measure another quantity that may act, such as a "
-            "temperature or a load, repeat an excitation to hear slow noise, or add excitations."
+            "load or the temperature of another part, repeat an excitation to hear slow noise, or add excitations."
         )
 
     def as_dict(self) -> dict[str, Any]:
         """For diagnosis.json."""
-        known = {key: value for key, value in asdict(self).items() if key != "of_the_law"}
+        known = {key: value for key, value in asdict(self).items() if key != "told"}
         return {**known, "reached": self.reached, "clearly_better": self.better, "words": self.words}
 
 

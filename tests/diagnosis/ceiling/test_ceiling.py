@@ -153,10 +153,10 @@ def test_of_two_excitations_little_is_said():
     assert not found.finds_nothing
 
 
-def test_nothing_else_is_to_be_measured_where_another_law_does_better():
+def test_nothing_else_is_to_be_measured_where_what_is_left_is_told_elsewhere():
     found = Ceiling(4.0, 4.1, 4.1, -1.0, "past extrema", "whole records", 4, "um", 1.0, 1.0, None)
     assert found.words.endswith("or add excitations.")
-    known = replace(found, of_the_law=True)
+    known = replace(found, told=True)
     assert known.words.endswith("smooth course of time or path.")
     assert found.words.startswith(known.words)
-    assert set(known.as_dict()) == {*asdict(known), "reached", "clearly_better", "words"} - {"of_the_law"}
+    assert set(known.as_dict()) == {*asdict(known), "reached", "clearly_better", "words"} - {"told"}
