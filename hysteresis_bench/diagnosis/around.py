@@ -22,6 +22,7 @@ from hysteresis_bench.diagnosis.preparation import Prepared, prepare
 from hysteresis_bench.diagnosis.question import Question
 from hysteresis_bench.diagnosis.reading.beginnings import only_in_beginnings, without_beginnings
 from hysteresis_bench.diagnosis.reading.between_samples import few_samples
+from hysteresis_bench.diagnosis.reading.drifts import DRIFTS, drift_of_each
 from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.reading.past import Past, begun, explain, pasts, settled, with_pasts
@@ -140,7 +141,11 @@ def searched(dataset: Dataset, question: Question) -> Around:
     if evidence.memory.needed:
         spare = only_in_beginnings(found)
         if spare is not None or explain(found, prepared.dataset):
-            prepared, found = _in_mid_loop(prepared, found, spare or (), question)
+            if drifting := drift_of_each(found):
+                question = replace(question, effects=(*question.effects, drifting))
+                prepared, found = _anew(prepared.read_as(prepared.dataset.records, DRIFTS.format(drifting)), question)
+            else:
+                prepared, found = _in_mid_loop(prepared, found, spare or (), question)
     return Around(dataset, question, prepared, found)
 
 
