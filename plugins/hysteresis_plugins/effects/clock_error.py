@@ -15,8 +15,8 @@ from hysteresis_bench.signals import Record, Signal
 from hysteresis_plugins.effects._ranges import dominant_frequency, longest, unresolved
 
 LONGEST = 0.25
-"""Of the slowest record's period, by which the clocks may be apart at the end of the longest record. Of six made cases
-the four that are apart by no more come out with it and with twice it."""
+"""Of the slowest record's period, by which the clocks may be apart at the end of the longest record. Four made cases
+with a clock that is 0.4 % off come out the same with half and with twice of it."""
 
 
 def _late(hiding: Hiding) -> float:
@@ -53,8 +53,8 @@ class ClockError(Effect):
     y(t) = x(t + rate (t - t_0)), x the response to the input as it was recorded, constant after its last sample. Linear
     between samples. Below 0 the output comes later and later, as behind a transport delay that grows.
 
-    Every model and effect that does not know the absolute time nearly commutes with it: a part in a thousand of the
-    time constants.
+    Every model and effect that does not know the absolute time nearly commutes with it: their time constants are off by
+    the rate.
 
     [1] JCGM 200:2012, International vocabulary of metrology, 4.21 instrumental drift, of a time base.
     """
