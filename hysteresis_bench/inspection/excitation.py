@@ -38,9 +38,8 @@ def amplitudes(record: Record) -> Array:
 
 
 def frequencies(record: Record) -> Array:
-    """Quartiles of its half cycles between meant reversals, (3,), cycles a unit of time; NaN with fewer than two."""
-    at = record.time[turns(record)]
-    return np.quantile(0.5 / np.diff(at), (0.25, 0.5, 0.75)) if at.size > 1 else np.full(3, np.nan)
+    """Quartiles of its half cycles between meant reversals, two at least, (3,), cycles a unit of time."""
+    return np.quantile(0.5 / np.diff(record.time[turns(record)]), (0.25, 0.5, 0.75))
 
 
 def unexcited(records: Sequence[Record]) -> list[str]:

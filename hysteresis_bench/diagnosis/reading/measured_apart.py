@@ -33,16 +33,15 @@ at each it misses. With 0.6 five and eleven do, with 0.95 one and six."""
 def measured_apart(
     records: Sequence[Record], simulated: Sequence[Array], residuals: Sequence[Array], floor: float
 ) -> str:
-    """A sentence, where a scale for every record, or for each half of one, or a delay for every record, explains
-    `OF_IT` of what is left beside a zero of its own, `MISFIT` times the noise or more; else "".
+    """A sentence, where a scale for every record, or for each half of one, explains `OF_IT` of what is left beside a
+    zero of its own, `MISFIT` times the noise or more, or a delay for every record `OF_IT_LATE` of it; else "".
 
     simulated : (samples,) of each record;  residuals : (scored samples,);  floor : RMS of the noise"""
     responses = {record.name: one[record.scored] for record, one in zip(records, simulated, strict=True)}
-    timed = len(records) > 1 and all(record.timed for record in records)
-    found = [_at_other_scales(responses, residuals, floor)]
-    found += [_at_other_times(records, simulated, residuals, floor)] if timed else []
-    enough = [(share, said) for (share, said), least in zip(found, (OF_IT, OF_IT_LATE), strict=False) if share >= least]
-    return max(enough, default=(0.0, ""))[1]
+    asked = [(OF_IT, *_at_other_scales(responses, residuals, floor))]
+    if len(records) > 1 and all(record.timed for record in records):
+        asked.append((OF_IT_LATE, *_at_other_times(records, simulated, residuals, floor)))
+    return max(((share, said) for least, share, said in asked if share >= least), default=(0.0, ""))[1]
 
 
 def _at_other_scales(responses: Mapping[str, Array], residuals: Sequence[Array], floor: float) -> tuple[float, str]:
