@@ -69,7 +69,7 @@ def test_behind_a_late_input_the_output_is_that_of_a_later_one():
 
 
 @pytest.mark.parametrize("rate", [0.013, -0.02])
-def test_a_clock_that_runs_fast_shows_what_comes_later(rate):
+def test_a_clock_that_runs_slow_shows_what_comes_later(rate):
     y = applied("clock-error", record().signal, rate=rate)
     np.testing.assert_allclose(y, 2.0 * np.interp(TIME + rate * (TIME - TIME[0]), TIME, DRIVE), atol=1e-12)
     uneven = 3.0 + np.sort(np.random.default_rng(1).uniform(0.0, 5.0, 90))

@@ -1,4 +1,4 @@
-"""Clock error: output and input were recorded by two clocks, one of which runs fast."""
+"""Clock error: output and input were recorded by two clocks, one of which runs slow."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ with a clock that is 0.4 % off come out the same with half and with twice of it.
 
 
 def _late(hiding: Hiding) -> float:
-    """By how much at the end of the longest record, unit of time: a tenth to a third of a radian of the fastest."""
+    """By how much at the end of the longest record, unit of time: up to two thirds of a radian of the fastest drive."""
     return (0.1 + 0.9 * hiding.strength) * hiding.strength / (3.0 * np.pi * hiding.fastest)
 
 
@@ -28,11 +28,11 @@ def _shown(inner: Response, u: Array, hiding: Hiding, late: Array) -> Array:
     return np.asarray(np.interp(hiding.time - late, hiding.time, inner(u)))
 
 
-def _slow(inner: Response, u: Array, hiding: Hiding) -> Array:
+def _fast(inner: Response, u: Array, hiding: Hiding) -> Array:
     return _shown(inner, u, hiding, _late(hiding) * hiding.time / hiding.duration)
 
 
-def _fast(inner: Response, u: Array, hiding: Hiding) -> Array:
+def _slow(inner: Response, u: Array, hiding: Hiding) -> Array:
     return _shown(inner, u, hiding, -_late(hiding) * hiding.time / hiding.duration)
 
 
@@ -48,10 +48,11 @@ def _lost(inner: Response, u: Array, hiding: Hiding) -> Array:
 
 @dataclass(frozen=True)
 class ClockError(Effect):
-    """The output's clock runs fast against the input's by a constant rate, from the first sample of every record [1].
+    """The output's clock runs slow against the input's by a constant rate, from the first sample of every record [1].
 
     y(t) = x(t + rate (t - t_0)), x the response to the input as it was recorded, constant after its last sample. Linear
-    between samples. Below 0 the output comes later and later, as behind a transport delay that grows.
+    between samples. At the time that a slow clock shows, more has passed. Below 0 it runs fast, and the output comes
+    later and later, as behind a transport delay that grows.
 
     Every model and effect that does not know the absolute time nearly commutes with it: their time constants are off by
     the rate.
@@ -66,9 +67,9 @@ class ClockError(Effect):
         "transport-delay": "over a short record a delay that grows is its mean",
         "late-input": "over a short record an advance that grows is its mean",
     }
-    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_slow, _fast)
+    hidden_forms: ClassVar[tuple[HiddenForm, ...]] = (_fast, _slow)
     other_forms: ClassVar[tuple[HiddenForm, ...]] = (_warming, _lost)
-    parameters = (Parameter("rate", -0.01, 0.01, "1", null=0.0, meaning="of the output's clock over the input's"),)
+    parameters = (Parameter("rate", -0.01, 0.01, "1", null=0.0, meaning="by which the output's clock is slow"),)
 
     def apply(self, inner: Callable[[Signal], Array], signal: Signal, p: Any) -> Array:
         from hysteresis_bench.kernels.clock import clock

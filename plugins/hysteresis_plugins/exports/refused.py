@@ -19,7 +19,7 @@ def ahead(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
 
 
 def another_clock(effect: Any, p: Mapping[str, float], timed: bool) -> NoReturn:
-    raise ValueError("its clock runs ahead of the input's, or behind it by more and more")
+    raise ValueError("by its clock the output is ahead of the input, or behind it by more and more")
 
 
 def description(effect: Any, p: Mapping[str, float], timed: bool) -> None:
