@@ -19,7 +19,8 @@ DRIFTS = (
 
 def drift_of_each(found: Found) -> str:
     """The effect that takes each record's own drift off, where it comes down to the noise; else ""."""
-    asked = [(one, name) for name in drifts(found.thin.stack) for one in (found.base, found.best)]
+    stack = found.thin.stack
+    asked = [(one, name) for name in drifts(stack) if name not in stack.own for one in (found.base, found.best)]
     for system, name in asked:
         if found.thin.extended(system, name).rmse <= REACHED * found.selection.floor:
             return name

@@ -31,3 +31,11 @@ def test_a_line_of_each_record_comes_down_to_the_noise_where_it_drifts(imperfect
         drift_of_each(SimpleNamespace(thin=fitter, base=base, best=base, selection=SimpleNamespace(floor=floor)))
         == told
     )
+
+
+def test_a_drift_that_was_asked_for_is_not_taken_in_again():
+    seen = HiddenEffects(effects=(), draw=1).measure("slow", np.random.default_rng(0))
+    fitter = Fitter(Stack(registry.build("models", "bouc-wen"), seen.records, own=("record-drift",)))
+    base = fitter.bare(frozenset({registry.RECORD_OFFSET}))
+    floor = SimpleNamespace(floor=10.0 * base.rmse)
+    assert drift_of_each(SimpleNamespace(thin=fitter, base=base, best=base, selection=floor)) == ""
