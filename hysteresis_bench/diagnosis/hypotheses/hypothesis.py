@@ -39,6 +39,13 @@ class Hypothesis:
         """RMS difference of the two fitted outputs, unit of the output."""
         return float(np.sqrt(np.mean((self.residuals - other.residuals) ** 2)))
 
+    def heard_apart(self, other: Hypothesis, noise: float) -> float:
+        """Standard errors by which samples with this noise (RMS, white) tell the two fitted systems apart: by the
+        distance of their outputs, or by what one leaves less, the root of the logarithm of the likelihoods' ratio."""
+        between = np.linalg.norm(self.residuals - other.residuals) ** 2
+        less = abs(np.linalg.norm(self.residuals) ** 2 - np.linalg.norm(other.residuals) ** 2)
+        return float(np.sqrt(max(between, less))) / noise if noise > 0.0 else np.inf
+
 
 @dataclass(frozen=True, eq=False)
 class Behind(Hypothesis):

@@ -155,9 +155,11 @@ class Selection:
         worse, better = (one, other) if one.rmse > other.rmse else (other, one)
         if better.rmse > MISFIT * self.floor and self.share(worse, better) < CLEARLY:
             return apart < better.rmse
-        similar = apart < CLOSE * max(self.floor, one.rmse) and ratio < ALIKE and 1 / ratio < ALIKE
-        # that a richer system is a little better is no evidence for it, however significant
-        return similar and (abs(gain) < CLEAR or len(better.values) > len(worse.values))
+        noise = max(self.floor, one.rmse)
+        similar = apart < CLOSE * noise and ratio < ALIKE and 1 / ratio < ALIKE
+        # that a richer system is a little better is no evidence for it, nor what nobody hears, however significant
+        unheard = one.heard_apart(other, noise) < CLEAR
+        return similar and (abs(gain) < CLEAR or unheard or len(better.values) > len(worse.values))
 
     def simplest(self, hypotheses: Sequence[Hypothesis]) -> Hypothesis:
         """Of the best and those tied with it, those with fewest parameters (what is estimated anew on every record, or

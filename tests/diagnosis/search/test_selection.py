@@ -1,9 +1,11 @@
 """Which system is taken, of hand-made ones."""
 
+from dataclasses import replace
+
 import pytest
 
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind
-from tests.diagnosis.search.handmade import ASIDE, fit, leaving, selection_of
+from tests.diagnosis.search.handmade import ASIDE, FLOOR, fit, leaving, selection_of
 
 
 @pytest.mark.parametrize(("share", "tied"), [(0.04, True), (0.09, True), (0.11, False), (0.3, False)])
@@ -18,6 +20,14 @@ def test_near_the_noise_a_small_share_tells_them_apart():
     one, other = fit("a", leaving(0.21, floor=1.0)), fit("b", leaving(0.21 * 0.95, floor=1.0))
     assert not selection_of(floor=1.0).tied(one, other)
     assert selection_of(floor=0.5).tied(one, other)
+
+
+@pytest.mark.parametrize(("apart", "tied"), [(0.05, True), (0.2, False)])
+def test_what_noise_never_tells_apart_is_tied_however_significant(apart, tied):
+    """480 samples tell outputs apart by two standard errors that differ by 0.091 times the noise."""
+    one, other = fit("a", FLOOR), fit("bc", FLOOR)
+    other = replace(other, residuals=other.residuals + apart * FLOOR * ASIDE, left_out=0.995 * other.left_out)
+    assert selection_of().tied(other, one) is tied
 
 
 def test_two_wrong_systems_that_err_differently_are_no_tie():
