@@ -239,7 +239,10 @@ def test_c_and_python_say_what_predict_says(case, tmp_path, compiler):
 
 
 REFUSED = {
-    **dict.fromkeys(("temperature-sensitivity", "response-with-temperature"), "a step is given time and input alone"),
+    **dict.fromkeys(
+        ("temperature-sensitivity", "thermal-inertia", "response-with-temperature"),
+        "a step is given time and input alone",
+    ),
     "late-input": "needs the input to come",
     "clock-error": "by its clock the output is ahead",
     **dict.fromkeys(("viscous-damping", "damping-curve", "inertia"), "which needs the next sample"),

@@ -175,6 +175,20 @@ def test_temperature_scales_and_shifts():
     np.testing.assert_allclose(again, y, rtol=1e-12)
 
 
+def test_a_device_warms_up_behind_the_measured_temperature():
+    """A step of temperature, as a ramp of one sample: the device comes to it exponentially."""
+    steps = np.where(TIME[10] < TIME, 30.0, 20.0)
+    signal = replace(record().signal, columns={"temperature": steps})
+    y = applied("thermal-inertia", signal, gain=0.01, expansion=-0.02, time_constant=0.4)
+    h = TIME[11] - TIME[10]
+    after = 10.0 * (1.0 - (1.0 - np.exp(-h / 0.4)) / (h / 0.4) * np.exp(-(TIME[11:] - TIME[11]) / 0.4))
+    np.testing.assert_allclose(y[:11], 2.0 * DRIVE[:11])
+    np.testing.assert_allclose(y[11:], 2.0 * DRIVE[11:] * (1 + 0.01 * after) - 0.02 * after, rtol=1e-9)
+    at_once = applied("temperature-sensitivity", signal, gain=0.01, expansion=-0.02)
+    without = applied("thermal-inertia", signal, gain=0.01, expansion=-0.02, time_constant=0.0)
+    np.testing.assert_allclose(without, at_once, rtol=1e-14)
+
+
 def test_record_drift_takes_a_line_from_every_record_and_leaves_its_mean():
     effect = registry.build("effects", "record-drift")
     slow = record(output=2.0 * DRIVE + 0.3 + 0.7 * (TIME - 2.0))

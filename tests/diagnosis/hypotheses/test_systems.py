@@ -39,6 +39,7 @@ CHAIN = [
     "gain-with-time",
     "response-with-temperature",
     "temperature-sensitivity",
+    "thermal-inertia",
     "creep",
     "droop",
     "lag-curve-after",
