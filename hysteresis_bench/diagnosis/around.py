@@ -11,6 +11,7 @@ from hysteresis_bench.diagnosis.doubt.agreement import is_shape
 from hysteresis_bench.diagnosis.doubt.density import in_its_place
 from hysteresis_bench.diagnosis.doubt.doubt import answered, doubt
 from hysteresis_bench.diagnosis.evidence.evidence import gather
+from hysteresis_bench.diagnosis.evidence.noise import pooled_noise
 from hysteresis_bench.diagnosis.evidence.noise_floor import WRONG
 from hysteresis_bench.diagnosis.families import forms_of
 from hysteresis_bench.diagnosis.findings.conclude import conclude
@@ -123,8 +124,10 @@ def searched(dataset: Dataset, question: Question) -> Around:
             prepared, found = _anew(prepared, question)
             evidence = found.evidence
     on_step(Step(f"{law}: the noise of the input"))
-    # the floor knows of the input's noise: what is left far above it, no smoother input explains
-    if evidence.noise.input_heard and found.best.rmse <= WRONG * found.selection.floor:
+    # the floor knows of the input's noise: what is left far above it, no smoother input explains; nor is it in what a
+    # system leaves any more, from which the noise may be known by now
+    heard = pooled_noise([view.noise for view in prepared.views]).input_heard
+    if heard and found.best.rmse <= WRONG * found.selection.floor:
         smooth = prepared.read_as(with_smooth_inputs(prepared.dataset.records), SMOOTHED)
         quiet = gather(smooth.views)
         # what is left of an input that is rough by itself passes for noise again

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence.memory import Memory, memory
-from hysteresis_bench.diagnosis.evidence.noise import Noise, pooled_noise
+from hysteresis_bench.diagnosis.evidence.noise import Noise, pooled_noise, unresolved
 from hysteresis_bench.diagnosis.evidence.noise_floor import floor_of
 from hysteresis_bench.diagnosis.evidence.view import View, views_of
 from hysteresis_bench.signals import Record
@@ -21,6 +22,18 @@ class Evidence:
     noise: Noise
     floor: float
     memory: Memory
+
+    @cached_property
+    def unknown(self) -> float:
+        """What the samples do not tell of the input, as an error of the output (RMS)."""
+        return unresolved([view.record for view in self.views])
+
+    @property
+    def told(self) -> str:
+        """The noise, and the floor where what is not known of the input is the larger part of it."""
+        known = f"the noise is {self.noise.floor:.3g}"
+        more = f", with what the samples do not tell of the input {self.floor:.3g}"
+        return known + (more if self.unknown > self.noise.floor else "")
 
     def heard_anew(self, quieter: Sequence[Record]) -> Evidence:
         """With the noise of the same records without a disturbance that had passed for noise."""

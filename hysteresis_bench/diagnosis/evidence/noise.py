@@ -22,6 +22,7 @@ from math import comb, erf, exp, pi, sqrt
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.value_grid import grid_step, rounded_to
 from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Record
 
@@ -60,7 +61,7 @@ class Noise:
     """Noise of one record, or pooled over several.
 
     rms, standard_error : of the output's fast noise, unit of the output; at least the quantisation's
-    input_rms : of the input's fast noise, unit of the input; 0 where the input is a noise-free command
+    input_rms : of the input's fast noise, at least its quantisation's, unit of the input; 0 of a noise-free command
     through_input : what the input's noise makes of the output, by the local slope, unit of the output
     repeat_rms : noise of any colour from the repeats of a periodic input; None without repeats
     by_lag : estimates from samples 1, 2 and 4 apart; equal where noise is white
@@ -118,7 +119,7 @@ def noise(record: Record) -> Noise:
     y, u, time = record.measured, record.input[record.scored], record.time[record.scored]
     quantum = grid_step(y)
     by_lag, error = _by_lag(record, y)
-    input_rms = fast_noise(time, u)[0]
+    input_rms = input_noise(time, u)
     return Noise(
         rms=max(by_lag[0], quantum / sqrt(12)),
         standard_error=error,
@@ -205,6 +206,12 @@ def fast_noise(time: Array, values: Array, lag: int = 1) -> tuple[float, float]:
     return (float(estimates[chosen]), float(errors[chosen])) if estimates[chosen] > arithmetic else (0.0, 0.0)
 
 
+def input_noise(time: Array, u: Array) -> float:
+    """RMS of the noise of a measured input, unit of the input. Of a slow one that was rounded, most differences are 0,
+    and tell of none."""
+    return max(fast_noise(time, u)[0], rounded_to(u) / sqrt(12))
+
+
 def _by_lag(record: Record, values: Array) -> tuple[tuple[float, ...], float]:
     """`fast_noise` of values (scored samples,) by distance, and the first one's error: heard where the output is not
     held at an end of its converter, where there is none, and for as many samples."""
@@ -240,18 +247,6 @@ def clipped_rms(values: Array) -> tuple[float, int]:
     sizes = np.abs(values)
     rms, kept = clipped.clipped_rms(sizes, float(np.median(sizes)) / MEDIAN, CLIP, SHRINK)
     return float(rms), int(kept)
-
-
-def grid_step(values: Array) -> float:
-    """The step of the grid on which all values lie (a converter's or a file's rounding), or 0."""
-    levels = np.unique(values)
-    steps = np.diff(levels)
-    steps = steps[steps > 1e-9 * max(np.ptp(levels), np.finfo(float).tiny)]
-    if steps.size < 2:
-        return float(steps[0]) if steps.size else 0.0
-    step = float(np.min(steps))
-    multiples = steps / step
-    return step if np.all(np.abs(multiples - np.rint(multiples)) < 0.05) else 0.0
 
 
 def _slope(time: Array, u: Array, y: Array, input_rms: float) -> float:

@@ -10,7 +10,7 @@ import numpy as np
 
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.diagnosis.evidence import covariates
-from hysteresis_bench.diagnosis.evidence.noise import Noise, fast_noise, noise, noise_left
+from hysteresis_bench.diagnosis.evidence.noise import Noise, input_noise, noise, noise_left
 from hysteresis_bench.signals import Record
 
 
@@ -59,7 +59,7 @@ class View:
     @cached_property
     def _resolution(self) -> float:
         u = self.record.input
-        rms = fast_noise(self.record.time, u)[0] if self.record.history else self.noise.input_rms
+        rms = input_noise(self.record.time, u) if self.record.history else self.noise.input_rms
         return covariates.resolution_of(u, rms)
 
     @cached_property

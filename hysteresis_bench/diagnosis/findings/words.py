@@ -152,7 +152,7 @@ def headline(outcome: Outcome) -> str:
     else:
         none = "No effect is named" if outcome.unexplained else "No effect that is known here is missing"
         said = f"{none}: {where} the RMSE is {last.rmse:.3g}{unit}"
-    said = f"{said}; the noise is {outcome.evidence.noise.floor:.3g}."
+    said = f"{said}; {outcome.evidence.told}."
     said += other_zero(after, outcome.evidence.floor, unit)
     if registry.DESCRIPTION in outcome.adopted:
         said += " Terms that describe what was left, without explaining it, have been added."
@@ -287,8 +287,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
         said.append(
             "One record only: what is held out comes from the same experiment, at the same speed and amplitude."
         )
-    # what lies between the samples puts every floor a little above the noise
-    if outcome.evidence.noise.floor < 0.5 * floor:
+    if max(outcome.evidence.noise.floor, outcome.evidence.unknown) < 0.5 * floor:
         said.append("The data have next to no noise; below a few parts in ten thousand of the range nothing is judged.")
     for one in outcome.ties:
         said.append(f"{one.effect} and {one.rival} cannot be told apart on these records: {one.reason}.")

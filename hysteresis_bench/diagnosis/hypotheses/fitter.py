@@ -12,7 +12,7 @@ from numpy.random import default_rng
 from hysteresis_bench import registry
 from hysteresis_bench.arrays import Array
 from hysteresis_bench.compose import System
-from hysteresis_bench.diagnosis.evidence.noise import fast_noise
+from hysteresis_bench.diagnosis.evidence.noise import input_noise
 from hysteresis_bench.diagnosis.hypotheses.chains import LAST, optimum
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Behind, Hypothesis, at_bound
 from hysteresis_bench.diagnosis.hypotheses.nested_test import SEARCHED, NestedTest, nested_test
@@ -214,7 +214,7 @@ class Fitter:
     @cached_property
     def _input_noise(self) -> float:
         """RMS over the records, unit of the input."""
-        return float(np.sqrt(np.mean([fast_noise(record.time, record.input)[0] ** 2 for record in self.stack.records])))
+        return float(np.sqrt(np.mean([input_noise(record.time, record.input) ** 2 for record in self.stack.records])))
 
     def drowned(self, hypothesis: Hypothesis, name: str) -> bool:
         """Is an effect's width on the input's axis, such as a dead band's, within the noise of the measured input?

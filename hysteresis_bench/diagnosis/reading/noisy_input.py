@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import sqrt
 
-from hysteresis_bench.diagnosis.evidence.noise import fast_noise
+from hysteresis_bench.diagnosis.evidence.noise import input_noise
 from hysteresis_bench.signals import Record
 
 OFF = 2.0
@@ -32,7 +32,7 @@ def with_smooth_inputs(records: Sequence[Record]) -> tuple[Record, ...]:
 def _smooth(record: Record) -> Record:
     from scipy.interpolate import UnivariateSpline
 
-    rms, _ = fast_noise(record.time, record.input)
+    rms = input_noise(record.time, record.input)
     if rms == 0.0:
         return record
     spline = UnivariateSpline(record.time, record.input / rms, s=record.time.size)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -61,3 +63,15 @@ def test_the_noise_of_a_hum_that_is_left_is_at_most_what_is_left() -> None:
     loud = gather(views_of([Record(time, smooth, 2.0 * smooth + hum)]))
     assert loud.noise.rms > 0.11
     assert loud.heard_beside([2.0 * smooth]).noise.rms == pytest.approx(0.1 / np.sqrt(2.0), rel=0.01)
+
+
+def test_the_floor_is_told_where_the_samples_do_not_tell_the_input() -> None:
+    """A smoothed input that may be off by more than the noise of the output."""
+    time = np.linspace(0.0, 4.0, 1200)
+    drive, noise = np.sin(2.0 * np.pi * time), 0.01 * np.random.default_rng(5).standard_normal(time.size)
+    record = Record(time, drive, 2.0 * drive + noise)
+    known = gather(views_of([record]))
+    assert known.told == f"the noise is {known.noise.floor:.3g}"
+    smoothed = gather(views_of([replace(record, input_error=0.01)]))
+    assert smoothed.unknown == pytest.approx(0.02, rel=0.05)
+    assert smoothed.told.endswith(f"with what the samples do not tell of the input {smoothed.floor:.3g}")

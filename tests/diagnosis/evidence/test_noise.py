@@ -13,13 +13,13 @@ from hysteresis_bench.diagnosis.evidence.noise import (
     MISSED,
     clipped_rms,
     fast_noise,
-    grid_step,
     noise,
     period,
     pooled_noise,
     unresolved,
 )
 from hysteresis_bench.diagnosis.evidence.view import View
+from hysteresis_bench.kernels.value_grid import grid_step
 from hysteresis_bench.signals import Record
 
 TIME = np.arange(4000) / 1000.0

@@ -28,7 +28,7 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
     known = {"names": (), "problem": Of(system=None), "values": None, "between": between, "constant": 0.0}
     stage = Of(held_out=held, fitted=Of(rmse=rmse), **known)
     bare = replace_held_out(stage, held_out_before) if held_out_before else stage
-    evidence = Of(noise=Of(floor=0.1), floor=0.1)
+    evidence = Of(noise=Of(floor=0.1), floor=0.1, unknown=0.0, told="the noise is 0.1")
     final = Of(names=frozenset(), at_bound=(), values={})
     full = Of(stack=Of(records=(), model=Silent()))
     return Outcome(

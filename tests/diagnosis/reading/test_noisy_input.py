@@ -38,6 +38,18 @@ def test_most_of_the_noise_is_taken_off(drive, uneven, share):
     assert 0.6 < smooth.input_error / np.sqrt(np.mean(left**2)) < 1.4
 
 
+@pytest.mark.parametrize("step", [0.003, 0.01, 0.03])
+def test_an_encoders_steps_are_taken_off(step):
+    """Slower than a step a sample in half of the record, where most differences are 0."""
+    time = np.linspace(0.0, 4.0, 1200)
+    true = 0.5 * np.sin(np.pi * time) + 0.5 * np.sin(np.pi * time**2 / 4.0)
+    read = Record(time, step * np.rint(true / step), true)
+    known, (smooth,) = gather(views_of([read])), with_smooth_inputs([read])
+    assert known.noise.input_rms == pytest.approx(step / np.sqrt(12.0), rel=0.1)
+    assert known.noise.input_heard
+    assert np.sqrt(np.mean((smooth.input - true) ** 2)) < 0.6 * known.noise.input_rms
+
+
 def test_an_input_without_noise_is_left_alone():
     time = np.linspace(0.0, 3.0, 900)
     for u in (sine(time), triangle(time), np.zeros(time.size)):
@@ -74,8 +86,9 @@ def test_inputs_are_smoothed_only_where_their_noise_may_explain_what_is_left(mon
     def enough(found):
         raise Stop
 
-    evidence = SimpleNamespace(noise=SimpleNamespace(input_heard=True))
-    for name, answer in (("prepare", prepared), ("gather", evidence), ("search", found)):
+    heard = SimpleNamespace(input_heard=True)
+    evidence = SimpleNamespace(noise=heard)
+    for name, answer in (("prepare", prepared), ("gather", evidence), ("search", found), ("pooled_noise", heard)):
         monkeypatch.setattr(module, name, lambda *rest, answer=answer: answer)
     monkeypatch.setattr(module, "few_samples", enough)
     with pytest.raises(Stop):
