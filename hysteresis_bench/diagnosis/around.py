@@ -38,9 +38,9 @@ from hysteresis_bench.progress import Step
 from hysteresis_bench.signals import Dataset
 
 SMOOTHED = (
-    "The input is measured with noise. It was smoothed by as much as its noise is (a smoothing spline), so that no "
-    "effect makes up for the noise; what that may still leave of it is taken for noise of the output. `predict` will "
-    "leave more with inputs as measured."
+    "The input is measured with noise. It was smoothed by as much as its noise is (a hum taken off, a smoothing "
+    "spline), so that no effect makes up for the noise; what that may still leave of it is taken for noise of the "
+    "output. `predict` will leave more with inputs as measured."
 )
 
 BETWEEN = (

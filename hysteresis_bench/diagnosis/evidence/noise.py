@@ -22,6 +22,7 @@ from math import comb, erf, exp, pi, sqrt
 import numpy as np
 
 from hysteresis_bench.arrays import Array
+from hysteresis_bench.kernels.hum import hum
 from hysteresis_bench.kernels.value_grid import grid_step, rounded_to
 from hysteresis_bench.kernels.white_noise import MEDIAN
 from hysteresis_bench.signals import Record
@@ -207,9 +208,10 @@ def fast_noise(time: Array, values: Array, lag: int = 1) -> tuple[float, float]:
 
 
 def input_noise(time: Array, u: Array) -> float:
-    """RMS of the noise of a measured input, unit of the input. Of a slow one that was rounded, most differences are 0,
-    and tell of none."""
-    return max(fast_noise(time, u)[0], rounded_to(u) / sqrt(12))
+    """RMS of the noise of a measured input and of a hum on it, unit of the input. Of a slow one that was rounded, most
+    differences are 0, and tell of none."""
+    picked_up = hum(time, u)
+    return float(np.hypot(max(fast_noise(time, u - picked_up)[0], rounded_to(u) / sqrt(12)), np.std(picked_up)))
 
 
 def _by_lag(record: Record, values: Array) -> tuple[tuple[float, ...], float]:

@@ -4,6 +4,7 @@ A lag before the law is a low-pass filter: it takes some of the input's noise of
 device does. So where the input's noise is heard in the output, the search is made again with inputs from which as much
 was taken as their noise has, by a smoothing spline whose residual has the noise's mean square [1]. What is found there
 is told, where it leaves less, and the smooth inputs have no such noise any more: an input that is rough by itself has.
+A hum on the input, of one frequency, is noise as well, and is taken off whole.
 
 [1] C. H. Reinsch, Smoothing by Spline Functions, Numer. Math. 10 (1967) 177; with fewer knots than samples: P. Dierckx,
 Curve and Surface Fitting with Splines, Oxford 1993, section 5.2.
@@ -16,6 +17,7 @@ from dataclasses import replace
 from math import sqrt
 
 from hysteresis_bench.diagnosis.evidence.noise import input_noise
+from hysteresis_bench.kernels.hum import hum
 from hysteresis_bench.signals import Record
 
 OFF = 2.0
@@ -32,9 +34,13 @@ def with_smooth_inputs(records: Sequence[Record]) -> tuple[Record, ...]:
 def _smooth(record: Record) -> Record:
     from scipy.interpolate import UnivariateSpline
 
-    rms = input_noise(record.time, record.input)
-    if rms == 0.0:
+    time = record.time
+    if not input_noise(time, record.input):
         return record
-    spline = UnivariateSpline(record.time, record.input / rms, s=record.time.size)
-    error = rms * sqrt(OFF * spline.get_coeffs().size / record.time.size)
-    return replace(record, input=rms * spline(record.time), input_error=error)
+    calm = record.input - hum(time, record.input)
+    rms = input_noise(time, calm)
+    if rms == 0.0:
+        return replace(record, input=calm)
+    spline = UnivariateSpline(time, calm / rms, s=time.size)
+    error = rms * sqrt(OFF * spline.get_coeffs().size / time.size)
+    return replace(record, input=rms * spline(time), input_error=error)

@@ -57,6 +57,17 @@ def test_an_input_without_noise_is_left_alone():
         assert with_smooth_inputs([record]) == (record,)
 
 
+@pytest.mark.parametrize("share", [0.0, 0.001])
+def test_a_hum_on_the_input_is_noise_and_is_taken_off(share):
+    rng, time = np.random.default_rng(3), np.linspace(0.0, 4.0, 1600)
+    true, noise = sine(time), share * rng.standard_normal(1600)
+    hum = 0.02 * np.sin(2.0 * np.pi * 50.0 * time + 0.4)
+    read = Record(time, true + hum + noise, true)
+    assert gather(views_of([read])).noise.input_rms == pytest.approx(np.hypot(np.std(hum), share), rel=0.02)
+    (smooth,) = with_smooth_inputs([read])
+    assert np.sqrt(np.mean((smooth.input - true) ** 2)) < 0.5 * share + 1e-4
+
+
 def test_what_smoothing_may_leave_is_in_the_floor():
     rng, time = np.random.default_rng(2), np.linspace(0.0, 4.0, 800)
     true = triangle(time)
