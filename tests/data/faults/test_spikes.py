@@ -119,3 +119,18 @@ def test_a_cubic_is_followed_on_any_grid_and_the_sentence_names_the_time():
     assert spikes_told(record(np.sin(TIME))) == ""
     for tiny in (record(np.zeros(TIME.size)), Record(np.arange(3.0), np.zeros(3), np.array([0.0, 9.0, 0.0]), "r")):
         assert spikes(tiny).size == 0
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_of_uneven_samples_none_is_bridged_for_one_beside_it(seed):
+    rng = np.random.default_rng(seed)
+    time = np.sort(rng.uniform(0.0, 8.0, 1200))
+    clean = 2.0 * np.sin(2.0 * np.pi * 1.1 * time) + 0.2 * np.abs(np.sin(2.0 * np.pi * 1.1 * time))
+    off, at = np.zeros(1200), rng.choice(1200, 18, replace=False)
+    off[at] = rng.choice([-1.0, 1.0], 18) * rng.uniform(0.5, 1.5, 18)
+    read = Record(time, np.sin(2.0 * np.pi * 1.1 * time), clean + off + 0.03 * rng.standard_normal(1200))
+    found = spikes(read)
+    assert found.size >= 5
+    assert {*found.tolist()} <= {*at.tolist()}
+    (bridged,) = without_spikes(Dataset((read,))).records
+    assert np.max(np.abs(bridged.output - clean)[found] / np.abs(off)[found]) < 0.5
