@@ -27,6 +27,7 @@ from hysteresis_bench.diagnosis.reading.drifts import DRIFTS, drift_of_each
 from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.reading.past import Past, begun, explain, pasts, settled, with_pasts
+from hysteresis_bench.diagnosis.reading.scales import scaled, scales_of_each, scales_told
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, REACHED
@@ -139,6 +140,11 @@ def searched(dataset: Dataset, question: Question) -> Around:
         finer, again = _anew(prepared.read_as(with_finer_steps(prepared.dataset.records), BETWEEN), question)
         if again.best.rmse < ALIKE * found.best.rmse:
             prepared, found = finer, again
+    on_step(Step(f"{law}: the records' scales"))
+    if scales := scales_of_each(found):
+        prepared, found = _anew(
+            prepared.read_as(scaled(prepared.dataset.records, scales), scales_told(scales)), question
+        )
     on_step(Step(f"{law}: the records' beginnings"))
     # what needs no hysteresis remembers nothing of what came before
     if evidence.memory.needed:

@@ -116,7 +116,9 @@ def remainder(stage: Stage, evidence: Evidence, parameters: int) -> Remainder:
     caused = [test for test in telling if test.name not in OF_THE_NOISE]
     white = not any(test.name == "whiteness" for test in tests)
     noise = not (caused or equation.terms or louder or missed)
-    bursts = noise and not white and equally_loud(_averaged(residuals, floor)) < UNLIKELY
+    # what is not known of a smoothed input is loud where the output goes steeply
+    smoothed = any(view.record.input_error > 0.0 for view in views)
+    bursts = noise and not (white or smoothed) and equally_loud(_averaged(residuals, floor)) < UNLIKELY
     slow = noise and not white and not bursts and _hidden(residuals, len(tests)) <= WRONG * floor
     heavy = noise and white and clipped_rms(np.concatenate(residuals))[0] <= REMAINS * floor
     ripple = max((t for t in telling if t.name.startswith("ripple")), key=lambda t: t.share, default=None)
@@ -182,7 +184,7 @@ def _louder(stage: Stage, residuals: Sequence[Array], floor: float, parameters: 
         return False
     squares = [part**2 for part in residuals]
     level = float(np.mean(np.concatenate(squares)))
-    ratio = stage.held_out.rmse**2 / max(level, floor**2)
+    ratio = stage.missed**2 / max(level, floor**2)
     effective = effective_samples([part - level for part in squares])
     corrected = ratio * effective / (effective + 2.0 * parameters)
     p = f_tail(corrected, effective / len(residuals), effective - parameters)

@@ -14,6 +14,7 @@ from hysteresis_bench.diagnosis.evidence.view import View
 from hysteresis_bench.diagnosis.hypotheses.hypothesis import Hypothesis
 from hysteresis_bench.diagnosis.preparation import Prepared
 from hysteresis_bench.diagnosis.question import Question
+from hysteresis_bench.diagnosis.reading.lone_samples import lone_part
 from hysteresis_bench.diagnosis.search.fallback import WORSE
 from hysteresis_bench.diagnosis.search.search import Found
 from hysteresis_bench.fit.accuracy import Accuracy, accuracy, constant_error
@@ -31,6 +32,7 @@ class Stage:
     values : (dimension,), in units;  names : of its effects
     between : RMS of what finer steps change of the response to what was held out, unit of the output
     constant : RMS of the constants by which what was held out is missed
+    lone : RMS that lone samples add to it, which are no fault of the system's
     """
 
     names: tuple[str, ...]
@@ -41,6 +43,12 @@ class Stage:
     tests: tuple[ResidualTest, ...]
     between: float = 0.0
     constant: float = 0.0
+    lone: float = 0.0
+
+    @property
+    def missed(self) -> float:
+        """RMSE on what was held out without lone samples, or on what was fitted where nothing was held out."""
+        return float(np.sqrt(max(self.held_out.rmse**2 - self.lone**2, 0.0))) if self.held_out else self.fitted.rmse
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,6 +110,7 @@ def stage_of(found: Found, hypothesis: Hypothesis, prepared: Prepared) -> Stage:
         tuple(residual_tests(found.evidence.views, residuals)),
         between_samples(system, ready.held_out, values),
         constant_error(system, ready.held_out, values),
+        lone_part(system, values, ready.held_out, found.selection.floor),
     )
 
 

@@ -115,8 +115,7 @@ class Outcome:
     @property
     def leaves(self) -> tuple[float, float]:
         """RMSE of the final system over the floor: on what was fitted, and on what was held out."""
-        held_out = self.after.held_out or self.after.fitted
-        return self.after.fitted.rmse / self.evidence.floor, held_out.rmse / self.evidence.floor
+        return self.after.fitted.rmse / self.evidence.floor, self.after.missed / self.evidence.floor
 
     @property
     def reaches(self) -> bool:

@@ -9,6 +9,7 @@ missing, and nothing is touched.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -49,6 +50,18 @@ def without_lone_samples(found: Found, dataset: Dataset) -> Mended | None:
     told += [f"count in the error on what was held out: {listed(unseen)}"] if unseen else []
     note = f"Lone samples lie far off what is left around them, and {', and '.join(told)}."
     return Mended(mended, bool(fitted), note) if told else None
+
+
+def lone_part(system: System, values: Array, records: Sequence[Record], floor: float) -> float:
+    """RMS that lone samples add to what is left of records that were not fitted; 0 where more than the rest is wrong.
+
+    values : (dimension,), in units;  floor : RMS of the noise"""
+    if not records:
+        return 0.0
+    off = [_off(system, values, record) for record in records]
+    left, away = (np.concatenate(parts) for parts in zip(*off, strict=True))
+    rest = float(np.sqrt(np.mean(left[away == 0.0] ** 2)))
+    return float(np.sqrt(np.sum(left[away != 0.0] ** 2) / left.size)) if rest <= WRONG * floor else 0.0
 
 
 def _off(system: System, values: Array, record: Record) -> tuple[Array, Array]:

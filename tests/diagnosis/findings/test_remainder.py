@@ -21,7 +21,7 @@ RECORDS, SAMPLES, PARAMETERS = 4, 800, 4
 
 def stage(held_out):
     """held_out : RMSE, None where nothing is held out."""
-    return Of(held_out=None if held_out is None else Of(rmse=held_out))
+    return Of(held_out=None if held_out is None else Of(rmse=held_out), missed=held_out)
 
 
 def residuals(seed, decay=0.9):

@@ -26,6 +26,7 @@ def outcome_of(adopted, needs, rmse=0.3, held_out=None, slow=False, held_out_bef
     held = None if held_out is None else Of(rmse=held_out)
     between = more.get("between", 0.0)
     known = {"names": (), "problem": Of(system=None), "values": None, "between": between, "constant": 0.0}
+    known["missed"] = rmse if held_out is None else held_out
     stage = Of(held_out=held, fitted=Of(rmse=rmse), **known)
     bare = replace_held_out(stage, held_out_before) if held_out_before else stage
     evidence = Of(noise=Of(floor=0.1), floor=0.1, unknown=0.0, told="the noise is 0.1")

@@ -11,7 +11,7 @@ from hysteresis_bench.diagnosis.diagnose import diagnose
 from hysteresis_bench.diagnosis.evidence.evidence import gather
 from hysteresis_bench.diagnosis.preparation import prepare
 from hysteresis_bench.diagnosis.question import DiagnosisOptions, Question
-from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
+from hysteresis_bench.diagnosis.reading.lone_samples import lone_part, without_lone_samples
 from hysteresis_bench.diagnosis.search.search import search
 
 RECORDS = ("slow", "fast", "nested", "mixed")
@@ -62,6 +62,27 @@ def test_what_is_held_out_stays_as_measured_and_is_told():
     assert all(np.array_equal(*pair) for pair in zip(outputs(mended.records), outputs(dataset.records), strict=True))
     assert not mended.refit
     assert "count in the error on what was held out: mixed (at time" in mended.note
+
+
+def test_lone_samples_that_are_held_out_are_no_fault_of_the_system():
+    """Five of 800 samples: what is missed with them is no noise, and without them it is."""
+    clean = data((), spiked=False)
+    at, off = np.array([100, 250, 400, 550, 700]), np.array([2.0, -1.5, 1.8, -2.2, 1.6])
+    output = clean.records[-1].output.copy()
+    output[at] += off
+    dirty = replace(clean.records[-1], output=output)
+    found, dataset = found_by(replace(clean, records=(*clean.records[:-1], dirty)))
+    assert not np.array_equal(dataset.held_out[0].output, clean.held_out[0].output)
+    system, values = found.thin.fitted(found.best)
+    (held_out,) = dataset.held_out
+    left = held_out.measured - system.respond(held_out, values[:, None])[held_out.scored, 0]
+    added = np.sqrt(np.sum(left[at] ** 2) / left.size)
+    floor = found.selection.floor
+    assert lone_part(system, values, [held_out], floor) == pytest.approx(added)
+    assert np.mean(left**2) > 1.3**2 * floor**2
+    assert np.mean(left**2) - added**2 == pytest.approx(floor**2, rel=0.2)
+    assert lone_part(system, values, [held_out], 0.1 * floor) == 0.0
+    assert lone_part(system, values, [], floor) == 0.0
 
 
 @pytest.mark.long
