@@ -195,6 +195,8 @@ def print_diagnosis(found: Diagnosis, console: Console) -> None:
     from hysteresis_bench.report.shared.text import sentence
 
     colour = {"effect-found": "green", "no-effect-needed": "green", "unexplained-residual": "yellow"}[found.verdict]
+    if found.laws is not None:
+        console.print(f"law  [bold]{found.model_name}[/], chosen by the data", highlight=False)
     console.print(f"[bold {colour}]{found.verdict}[/]  {escape(found.headline)}", highlight=False)
     console.print(escape(sentence(found.memory.words)), highlight=False, style="dim")
     if found.ceiling is not None:

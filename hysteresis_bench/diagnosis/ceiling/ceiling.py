@@ -49,7 +49,7 @@ class Ceiling:
     named model;  advantage : of the black box, in standard errors of its mean square, paired over blocks
     columns : of the black box, in words;  left_out : in turn, in words, in so many folds;  unit : of the output
     floor : RMS below which nothing is judged;  noise : of the data;  repeats : by how much equal cycles differ, where
-    that is clearly more;  told : what is left is told elsewhere, as another law's or as noise
+    that is clearly more;  told : what is left is told elsewhere, as noise;  law : as another law's
     """
 
     named: float
@@ -64,6 +64,7 @@ class Ceiling:
     noise: float
     repeats: float | None
     told: bool = False
+    law: bool = False
 
     @property
     def heard(self) -> float:
@@ -111,11 +112,13 @@ class Ceiling:
                 f"{said} The black box does not do clearly better, which says little after a fit to "
                 "one other excitation: add some."
             )
+        if self.law:  # a black box beside the wrong law may not find what the right one knows
+            return f"{said} The black box does not do clearly better; another law does."
         said = (
             f"{said} The black box does not do clearly better: what is left, {rounded(self.named / self.floor)} times "
             "the noise, is nothing that it finds in the input's history or in a smooth course of time or path."
         )
-        if self.told:  # a black box beside the wrong law may not find what the right one knows
+        if self.told:
             return said
         return (
             f"{said} Rather than search for further effects of these, measure another quantity that may act, such as a "
@@ -124,7 +127,7 @@ class Ceiling:
 
     def as_dict(self) -> dict[str, Any]:
         """For diagnosis.json."""
-        known = {key: value for key, value in asdict(self).items() if key != "told"}
+        known = {key: value for key, value in asdict(self).items() if key not in ("told", "law")}
         return {**known, "reached": self.reached, "clearly_better": self.better, "words": self.words}
 
 

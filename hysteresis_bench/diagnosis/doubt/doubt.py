@@ -148,7 +148,7 @@ def answered(found: Found, doubted: Doubt, options: DiagnosisOptions) -> Found:
             name: {
                 other: system
                 for other, system in selection.alternatives(found.best, name).items()
-                if other in known or other in held.get(name, ())
+                if other in known or (other in held.get(name, ()) and system.rmse <= WRONG * found.best.rmse)
             }
             for name, known in found.rivals.items()
         }

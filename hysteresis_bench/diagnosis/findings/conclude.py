@@ -113,7 +113,7 @@ def conclude(
         units=dataset.units,
         given_up=found.given_up,
         unseen=unseen_rmse(found.thin, found.final),
-        ceiling=found.ceiling and replace(found.ceiling, told=doubt.cause is not None or left.noise),
+        ceiling=found.ceiling and replace(found.ceiling, told=left.noise, law=doubt.cause is not None),
     )
 
 

@@ -74,11 +74,11 @@ class Outcome:
     @property
     def stand_ins(self) -> tuple[str, ...]:
         """Of what was adopted, what only stands in for the law: all of it where what was held out contradicts it. An
-        offset for all records is a finding only where nothing else is left, and no curve, whose zero is as it happens,
-        was needed."""
+        offset for all records is a finding only where nothing else is left, and neither a curve nor what follows a
+        temperature was needed, whose zero is as it happens."""
         names = [name for name in self.adopted if name != registry.DESCRIPTION]
         spare = {*names} - {*(() if self.refuted else self.doubt.holding(names))}
-        if self.unexplained or forms_of(tuple(names)):
+        if self.unexplained or forms_of(tuple(names)) or any(registry.effect(name).wants for name in names):
             spare.add(registry.COMMON_OFFSET)
         return tuple(name for name in self.adopted if name in spare)
 
@@ -240,7 +240,7 @@ def warnings(outcome: Outcome) -> tuple[str, ...]:
     if found.follows and not followed and (outcome.doubted or outcome.doubt.agreement):
         blamed = (
             f"of which a black box finds nothing in the input's past: {CAUSES}"
-            if found.ceiling.finds_nothing
+            if found.ceiling.finds_nothing and not outcome.cause
             else "and the model's own law does not follow these data"
         )
         may = ". What is named may stand in for that" if outcome.doubted and outcome.named else ""

@@ -159,4 +159,6 @@ def test_nothing_else_is_to_be_measured_where_what_is_left_is_told_elsewhere():
     known = replace(found, told=True)
     assert known.words.endswith("smooth course of time or path.")
     assert found.words.startswith(known.words)
-    assert set(known.as_dict()) == {*asdict(known), "reached", "clearly_better", "words"} - {"told"}
+    assert set(known.as_dict()) == {*asdict(known), "reached", "clearly_better", "words"} - {"told", "law"}
+    another = replace(found, law=True)
+    assert another.words.endswith("does not do clearly better; another law does.")
