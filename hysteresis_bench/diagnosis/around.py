@@ -141,7 +141,7 @@ def searched(dataset: Dataset, question: Question) -> Around:
         if again.best.rmse < ALIKE * found.best.rmse:
             prepared, found = finer, again
     on_step(Step(f"{law}: the records' scales"))
-    if scales := scales_of_each(found):
+    if scales := scales_of_each(found, prepared.dataset.held_out):
         prepared, found = _anew(
             prepared.read_as(scaled(prepared.dataset.records, scales), scales_told(scales)), question
         )

@@ -26,16 +26,17 @@ def data(scales, effects=()):
 
 def scales_in(dataset):
     prepared = prepare(dataset, QUESTION)
-    return scales_of_each(search(prepared, gather(prepared.views), QUESTION))
+    return scales_of_each(search(prepared, gather(prepared.views), QUESTION), prepared.dataset.held_out)
 
 
 def test_the_scale_of_a_record_is_found_and_taken_out():
-    found = diagnose(data({"fast": 1.15}), QUESTION)
+    found = diagnose(data({"fast": 1.15, "mixed": 0.97}), QUESTION)
     assert found.verdict == "no-effect-needed"
     assert not found.effects
     assert found.after.held_out.rmse < 1.1 * found.floor
     (told,) = (words for words in found.warnings if "scales of their own" in words)
-    assert "fast 1.15 times" in told
+    assert "fast 1.15" in told
+    assert "mixed 0.97 times" in told
 
 
 @pytest.mark.parametrize("effects", [(), ("saturation",), ("fatigue",)])
