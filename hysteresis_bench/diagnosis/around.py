@@ -28,6 +28,7 @@ from hysteresis_bench.diagnosis.reading.lone_samples import without_lone_samples
 from hysteresis_bench.diagnosis.reading.noisy_input import with_smooth_inputs
 from hysteresis_bench.diagnosis.reading.past import Past, begun, explain, pasts, settled, with_pasts
 from hysteresis_bench.diagnosis.reading.scales import scaled, scales_of_each, scales_told
+from hysteresis_bench.diagnosis.reading.zeros import levelled, zeros_of_each, zeros_told
 from hysteresis_bench.diagnosis.search.fallback import unseen_rmse
 from hysteresis_bench.diagnosis.search.search import Found, search
 from hysteresis_bench.diagnosis.search.selection import ALIKE, BETTER, MISFIT, REACHED
@@ -145,6 +146,10 @@ def searched(dataset: Dataset, question: Question) -> Around:
         prepared, found = _anew(
             prepared.read_as(scaled(prepared.dataset.records, scales), scales_told(scales)), question
         )
+    on_step(Step(f"{law}: the records' zeros"))
+    if steps := zeros_of_each(found, prepared.dataset.held_out):
+        records, note = levelled(prepared.dataset.records, steps), zeros_told(prepared.dataset.records, steps)
+        prepared, found = _anew(prepared.read_as(records, note), question)
     on_step(Step(f"{law}: the records' beginnings"))
     # what needs no hysteresis remembers nothing of what came before
     if evidence.memory.needed:
