@@ -62,8 +62,10 @@ class ThermalInertia(Effect):
             raise ValueError("thermal-inertia needs a column temperature; these data have none")
         from hysteresis_bench.kernels.lag import lag
 
-        output, measured = own(inner(signal), signal), signal.columns["temperature"][:, None] - self.reference
-        inside = lag(signal.time, measured, p.time_constant) if signal.timed else measured
+        output = own(inner(signal), signal)
+        if not signal.timed:
+            return output
+        inside = lag(signal.time, signal.columns["temperature"][:, None] - self.reference, p.time_constant)
         output *= 1.0 + p.gain * inside
         output += p.expansion * inside
         return output
