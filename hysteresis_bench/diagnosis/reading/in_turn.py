@@ -23,7 +23,8 @@ from hysteresis_bench.signals import Record
 
 ROUNDS, FALLS, STILL = 12, 0.95, 0.999
 """So often both are fitted in turn, at most: as long as what is left falls to this share of it, before it is near the
-noise and after."""
+noise and after. In eight made cases, three of them without anything of the kind, half and twice of ROUNDS and of the
+distances from 1 of the others change no number by more than 1e-3."""
 
 Own = dict[str, float]
 """What is a record's own, by names."""

@@ -24,10 +24,11 @@ MOVED = (
 )
 
 FEWEST = 10
-"""Samples on either side of a step."""
+"""Samples on either side of a step. In five made cases half and twice of it change nothing."""
 
 HEARD = 5.0
-"""Standard errors of a step's height, by the noise, from which there is one."""
+"""Standard errors of a step's height, by the noise, from which there is one. In the same cases half of it finds one
+more, of a quarter of the noise, and twice of it the same."""
 
 AT, BY = " at", " by"
 """After a record's name, what is its own: the time of the step, and its height."""
