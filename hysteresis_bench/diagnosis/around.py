@@ -63,6 +63,9 @@ PAST = (
     "and will be off there."
 )
 
+OWN = (("scales", scales_of_each, scaled, scales_told), ("zeros", zeros_of_each, levelled, zeros_told))
+"""What every record may have for itself: in a word, what finds it, takes it off, and tells it."""
+
 ESTIMATED = 3
 """Times that what came before the records is estimated at most, each by another system, that leaves less."""
 
@@ -126,8 +129,8 @@ def searched(dataset: Dataset, question: Question) -> Around:
             prepared, found = _anew(prepared, question)
             evidence = found.evidence
     on_step(Step(f"{law}: the noise of the input"))
-    # the floor knows of the input's noise: what is left far above it, no smoother input explains; nor is it in what a
-    # system leaves any more, from which the noise may be known by now
+    # the floor knows of the input's noise: what is left far above it, no smoother input explains. The records are
+    # asked: where the noise was estimated anew, from what a system leaves, the input's counts as the output's
     heard = pooled_noise([view.noise for view in prepared.views]).input_heard
     if heard and found.best.rmse <= WRONG * found.selection.floor:
         smooth = prepared.read_as(with_smooth_inputs(prepared.dataset.records), SMOOTHED)
@@ -141,15 +144,11 @@ def searched(dataset: Dataset, question: Question) -> Around:
         finer, again = _anew(prepared.read_as(with_finer_steps(prepared.dataset.records), BETWEEN), question)
         if again.best.rmse < ALIKE * found.best.rmse:
             prepared, found = finer, again
-    on_step(Step(f"{law}: the records' scales"))
-    if scales := scales_of_each(found, prepared.dataset.held_out):
-        prepared, found = _anew(
-            prepared.read_as(scaled(prepared.dataset.records, scales), scales_told(scales)), question
-        )
-    on_step(Step(f"{law}: the records' zeros"))
-    if steps := zeros_of_each(found, prepared.dataset.held_out):
-        records, note = levelled(prepared.dataset.records, steps), zeros_told(prepared.dataset.records, steps)
-        prepared, found = _anew(prepared.read_as(records, note), question)
+    for what, own_of_each, without, told in OWN:
+        on_step(Step(f"{law}: the records' {what}"))
+        if own := own_of_each(found, prepared.dataset.held_out):
+            records = prepared.dataset.records
+            prepared, found = _anew(prepared.read_as(without(records, own), told(records, own)), question)
     on_step(Step(f"{law}: the records' beginnings"))
     # what needs no hysteresis remembers nothing of what came before
     if evidence.memory.needed:

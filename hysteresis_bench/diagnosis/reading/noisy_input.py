@@ -16,6 +16,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from math import sqrt
 
+import numpy as np
+
 from hysteresis_bench.diagnosis.evidence.noise import input_noise
 from hysteresis_bench.kernels.hum import hum
 from hysteresis_bench.signals import Record
@@ -34,13 +36,11 @@ def with_smooth_inputs(records: Sequence[Record]) -> tuple[Record, ...]:
 def _smooth(record: Record) -> Record:
     from scipy.interpolate import UnivariateSpline
 
-    time = record.time
-    if not input_noise(time, record.input):
-        return record
-    calm = record.input - hum(time, record.input)
+    time, picked_up = record.time, hum(record.time, record.input)
+    calm = record.input - picked_up
     rms = input_noise(time, calm)
     if rms == 0.0:
-        return replace(record, input=calm)
+        return replace(record, input=calm) if np.any(picked_up) else record
     spline = UnivariateSpline(time, calm / rms, s=time.size)
     error = rms * sqrt(OFF * spline.get_coeffs().size / time.size)
     return replace(record, input=rms * spline(time), input_error=error)

@@ -43,9 +43,10 @@ def scaled(records: tuple[Record, ...], scales: Mapping[str, float]) -> tuple[Re
     )
 
 
-def scales_told(scales: Mapping[str, float]) -> str:
+def scales_told(records: Sequence[Record], scales: Mapping[str, float]) -> str:
     """The note."""
-    return SCALED.format(listed([f"{name} {scale:.3g}" for name, scale in scales.items() if abs(scale - 1.0) > TOLD]))
+    names = [record.name for record in records if abs(scales.get(record.name, 1.0) - 1.0) > TOLD]
+    return SCALED.format(listed([f"{name} {scales[name]:.3g}" for name in names]))
 
 
 def _scale(record: Record, system: System, values: Array) -> float:

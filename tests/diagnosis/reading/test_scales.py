@@ -51,6 +51,6 @@ def test_records_are_divided_by_what_is_told():
     assert [float(np.ptp(a.output) / np.ptp(b.output)) for a, b in zip(again, records, strict=True)] == pytest.approx(
         [1.0 / 1.001, 0.5, 1.0, 1.0]
     )
-    words = scales_told({"fast": 2.0, "slow": 1.001})
+    words = scales_told(records, {"fast": 2.0, "slow": 1.001})
     assert "fast 2 times" in words
     assert "slow" not in words
